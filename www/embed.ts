@@ -8,7 +8,7 @@ import './de.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
 /** Returns the widget that a query describes. If a parameter is not allowed, throws an error that names it and lists the allowed ones. */
-function widgetFromQuery(urlQuery: URLSearchParams) {
+function createWidgetFromQuery(urlQuery: URLSearchParams) {
   const widget = createWidget(urlQuery.get('widget'));
   const tagName = widget.localName;
   const allowedParameters = [...(widget.constructor as any).observedAttributes, ...GLOBAL_ATTRIBUTES];
@@ -24,7 +24,7 @@ function widgetFromQuery(urlQuery: URLSearchParams) {
 }
 
 try {
-  document.body.append(widgetFromQuery(new URLSearchParams(location.search)));
+  document.body.append(createWidgetFromQuery(new URLSearchParams(location.search)));
 } catch (error) {
   document.body.append(createErrorParagraph('This address', error));
 }

@@ -30,9 +30,9 @@ async function enterState(figureElement: FigureElement, settingValues: Record<st
   }
 }
 
-async function enterTriedState(tryButton: HTMLElement) {
+async function enterStateOfButton(tryButton: HTMLElement) {
   const figureElement = figureOf(tryButton);
-  for (const triedButton of tryButton.closest('article')?.querySelectorAll('[data-try]') ?? []) triedButton.removeAttribute('aria-current');
+  for (const siblingButton of tryButton.closest('article')?.querySelectorAll('[data-try]') ?? []) siblingButton.removeAttribute('aria-current');
   await enterState(figureElement, JSON.parse(tryButton.dataset.try ?? '{}'));
   tryButton.setAttribute('aria-current', 'true');
   figureElement.addEventListener('input', () => tryButton.removeAttribute('aria-current'), { once: true });
@@ -63,7 +63,7 @@ const findNumberAtPath = (stats: Record<string, any>, keyPath: string): number |
  * Completes a form in which the reader bets on a number by a slider. `data-try` is the state of the figure that has the answer, and `data-answer`
  * the path of the answer in `stats`. `data-hides` names the overlay that shows the answer; it is hidden until the reader submits the bet.
  */
-function prepareBet(betForm: HTMLFormElement) {
+function prepareBetForm(betForm: HTMLFormElement) {
   const figureElement = figureOf(betForm);
   const { try: stateText = '{}', answer: answerPath = '', unit: answerUnit = '', hides: hiddenOverlay } = betForm.dataset;
   const answerState = JSON.parse(stateText);
@@ -104,8 +104,8 @@ document.addEventListener('load', ({ target }) => {
 }, { capture: true });
 document.addEventListener('click', ({ target }) => {
   const tryButton = target instanceof Element ? target.closest('button[data-try]') : null;
-  if (tryButton) void enterTriedState(tryButton as HTMLElement);
+  if (tryButton) void enterStateOfButton(tryButton as HTMLElement);
 });
 for (const eventType of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(eventType, highlightTerm);
-for (const betForm of document.querySelectorAll('form')) prepareBet(betForm);
+for (const betForm of document.querySelectorAll('form')) prepareBetForm(betForm);
 keepPicturesInSight();

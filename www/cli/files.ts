@@ -3,7 +3,7 @@
 import { openAsBlob } from 'node:fs';
 import { readFile, readdir, stat } from 'node:fs/promises';
 import { basename, join, relative } from 'node:path';
-import { LogError, type OptionsByName, type Recording, type SourceFile } from '../logs/log.ts';
+import { LogError, type FindOptions, type Recording, type SourceFile } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 
@@ -11,7 +11,7 @@ import type { InputPath } from './options.ts';
  * Opens the recordings of a file or folder. Error messages refer to it by `sourceName`. Rejects with a LogError if it has no log. Calls `onSkip` with the error
  * of each file that is not a log.
  */
-export async function openRecordingsAt({ inputPath, logRole }: InputPath, sourceName: string, optionsOf: OptionsByName, onSkip: (error: LogError) => void): Promise<Recording[]> {
+export async function openRecordingsAt({ inputPath, logRole }: InputPath, sourceName: string, optionsOf: FindOptions, onSkip: (error: LogError) => void): Promise<Recording[]> {
   const logErrors: LogError[] = [];
   const recordings = await openRecordings(await openSources(inputPath, sourceName), (fileName) => ({ ...optionsOf(fileName), logRole }), (error) => logErrors.push(error));
   const refusalError = recordings.length === 0 ? logErrors.shift() : undefined;

@@ -5,7 +5,7 @@ import { basename, resolve } from 'node:path';
 import { planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate, mirroringQuestionsOf, summarySentencesOf, type Recording } from '../logs/log.ts';
-import { optionsByNameOf } from '../logs/open.ts';
+import { createOptionsFinder } from '../logs/open.ts';
 import { calibrationLogOf, readDrives, type LoggedDrive } from '../logs/pairs.ts';
 import { openRecordingsAt } from './files.ts';
 import { inspectInputs, formatInspection } from './inspect.ts';
@@ -57,7 +57,7 @@ async function openInputs({ inputPaths, optionsByFile, userChoices }: Pick<Calib
   // A file is named by its path if another file has the same base name.
   const inputNames = pathBaseNames.map((baseName, i) => (pathBaseNames.indexOf(baseName) === pathBaseNames.lastIndexOf(baseName) ? baseName : inputPaths[i].inputPath));
   const nameByPath = new Map(inputPaths.map(({ inputPath }, i) => [inputPath, inputNames[i]]));
-  const optionsOf = optionsByNameOf(optionsByFile.map(([fileName, openOptions]) => [nameByPath.get(fileName) ?? fileName, openOptions]));
+  const optionsOf = createOptionsFinder(optionsByFile.map(([fileName, openOptions]) => [nameByPath.get(fileName) ?? fileName, openOptions]));
   const givenRecordings: { recording: Recording; inputPath: string }[] = [];
   for (const [i, givenInput] of inputPaths.entries()) {
     givenRecordings.push(...(await openRecordingsAt(givenInput, inputNames[i], optionsOf, onSkip)).map((recording) => ({ recording, inputPath: givenInput.inputPath })));

@@ -4,9 +4,9 @@ export function createRefusalError(fieldName: string, checkedValue: unknown, all
   return new ErrorClass(`${fieldName} is ${describeValue(checkedValue)}; allowed is ${allowedText}`);
 }
 
-/** Returns the given error. If its message starts with `corePath`, which is the core's name of a field, `newName` replaces that name. */
-export function withFieldRenamed(error: unknown, newName: string, corePath: string = newName) {
-  if (error instanceof Error && error.message.startsWith(corePath)) error.message = newName + error.message.slice(corePath.length);
+/** Returns the given error. If its message starts with `coreFieldPath`, which is the core's name of a field, `newName` replaces that name. */
+export function renameErrorField(error: unknown, newName: string, coreFieldPath: string = newName) {
+  if (error instanceof Error && error.message.startsWith(coreFieldPath)) error.message = newName + error.message.slice(coreFieldPath.length);
   return error;
 }
 

@@ -21,7 +21,7 @@ interface ElementProperty extends PropertyDeclaration {
   /** Returns the changes of the configuration that a new value of the property causes. */
   changesFor: (propertyValue: any, settingValues: StateValues) => StateValues;
   /** Name of the setting in errors of the core, if it differs from the property's name. */
-  corePath?: string;
+  coreFieldPath?: string;
   /** Words that are allowed as values of the property, if the declaration of the setting does not list them. */
   words?: readonly string[];
 }
@@ -109,7 +109,7 @@ function propertyOf({ key: settingKey, in: groupKey, field: fieldKey = settingKe
   const memberKey = index ?? fieldKey;
   return {
     ...plainProperty,
-    corePath: index !== undefined ? `${groupKey}[${index}]` : fieldKey === settingKey ? undefined : `${groupKey}.${fieldKey}`,
+    coreFieldPath: index !== undefined ? `${groupKey}[${index}]` : fieldKey === settingKey ? undefined : `${groupKey}.${fieldKey}`,
     getValue: (settingValues) => settingValues[groupKey][memberKey] ?? null,
     changesFor: (fieldValue, { [groupKey]: groupValue }) => ({ [groupKey]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: fieldValue }) }),
   };

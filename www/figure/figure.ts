@@ -185,8 +185,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   /** Returns a partial state, completed by the fields whose values follow from it. */
-  withDerivedFields(currentState: StateValues, changedValues: StateValues): StateValues {
-    return { ...this.cloud?.withDerivedFields(currentState, changedValues), ...changedValues };
+  addDerivedFields(currentState: StateValues, changedValues: StateValues): StateValues {
+    return { ...this.cloud?.addDerivedFields(currentState, changedValues), ...changedValues };
   }
 
   get simulation() {

@@ -18,20 +18,20 @@ export class StateLink extends FigureController {
 
   hostConnected() {
     addEventListener('hashchange', () => {
-      if (this.#isOwnFragmentPart(splitFragment()[0])) this.#scrollHere();
+      if (this.#isOwnFragmentPart(splitFragment()[0])) this.#scrollToFigure();
       void this.applyStateInAddress();
     }, { signal: this.figure.lifetime.signal });
     pendingLinkPart ??= wasOpenedByLink() ? splitFragment()[0] : '';
     if (!this.#isOwnFragmentPart(pendingLinkPart)) return;
     pendingLinkPart = '';
-    this.#scrollHere();
+    this.#scrollToFigure();
   }
 
   #isOwnFragmentPart(fragmentPart = '') {
     return fragmentPart.startsWith(`${fragmentKeyOf(this.figure)}=`);
   }
 
-  #scrollHere() {
+  #scrollToFigure() {
     const { figure } = this;
     // The page scrolls after the update, which gives the figure its height.
     void figure.updateComplete.then(() => figure.scrollIntoView());

@@ -1,6 +1,6 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { includesFields, withFieldRenamed } from '../data/checks.ts';
+import { includesFields, renameErrorField } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
 import { defaultConfigOf } from './definition.ts';
 import type { Figure } from './figure.ts';
@@ -10,7 +10,7 @@ export class AttributeReflection extends FigureController {
   #attributes = this.figure.definition.attributes;
   #elementProperties = this.figure.definition.elementProperties;
   /** Names of properties in the order in which assignments made before the start are applied. Properties on which others depend come first. A log comes last, because its fit takes long. */
-  #applicationOrder = ['preset', 'map', ...Object.keys(this.#elementProperties), 'log'];
+  #propertyOrder = ['preset', 'map', ...Object.keys(this.#elementProperties), 'log'];
   /** Assignments of the page before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
   #earlyAssignments: Map<unknown, { assignedValue?: unknown, applyAssignment: () => void }> = new Map();
   #isWritingAttributes = false;
@@ -19,7 +19,7 @@ export class AttributeReflection extends FigureController {
   applyEarlyAssignments() {
     let stateOffset = 0;
     const orderedAssignments = [...this.#earlyAssignments].map(([propertyName, { applyAssignment }]) =>
-      ({ apply: applyAssignment, assignmentOrder: typeof propertyName === 'string' ? stateOffset + this.#applicationOrder.indexOf(propertyName) : (stateOffset += this.#applicationOrder.length) }));
+      ({ apply: applyAssignment, assignmentOrder: typeof propertyName === 'string' ? stateOffset + this.#propertyOrder.indexOf(propertyName) : (stateOffset += this.#propertyOrder.length) }));
     this.#earlyAssignments.clear();
     for (const { apply: applyAssignment } of orderedAssignments.sort((a, b) => a.assignmentOrder - b.assignmentOrder)) this.figure.runtime.attemptOrReport(applyAssignment);
   }
@@ -61,12 +61,12 @@ export class AttributeReflection extends FigureController {
   /** Sets a property of the definition, as `setProperty` does. Errors have the property's name in place of the core's name of the setting. */
   assignProperty(propertyName: string, propertyValue: unknown) {
     const { settings } = this.figure;
-    const { changesFor, corePath } = this.#elementProperties[propertyName];
+    const { changesFor, coreFieldPath } = this.#elementProperties[propertyName];
     this.setProperty(propertyName, propertyValue, (newValue) => {
       try {
         settings.assignValues(changesFor(newValue, settings.requestedValues));
       } catch (error) {
-        throw withFieldRenamed(error, propertyName, corePath);
+        throw renameErrorField(error, propertyName, coreFieldPath);
       }
     });
   }

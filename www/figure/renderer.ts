@@ -127,8 +127,8 @@ export class FigureRenderer extends FigureController {
   }
 
   /** Allows the views of all pictures to zoom in and recenter, after the user or the page has chosen another scene. */
-  letViewsZoomIn(minFill?: number) {
-    for (const { pictureView } of this.figure.pictures) pictureView.allowZoomIn(minFill);
+  letViewsZoomIn(minFillFraction?: number) {
+    for (const { pictureView } of this.figure.pictures) pictureView.allowZoomIn(minFillFraction);
   }
 
   /** Requests a frame, in which a visible figure draws all pictures. */
@@ -143,7 +143,7 @@ export class FigureRenderer extends FigureController {
     this.#frameRequest = requestAnimationFrame((nowMs) => {
       this.#frameRequest = undefined;
       const elapsedMs = clampNumber(nowMs - this.#previousFrameMs, 0, MAX_TIME_STEP_MS);
-      if (!this.isVisible) this.#updateUnseen();
+      if (!this.isVisible) this.#updateInvisible();
       else if (this.#undrawnPictures.size > 0) this.#attemptDraw(elapsedMs);
       else this.#renderText();
       this.#previousFrameMs = nowMs;
@@ -151,7 +151,7 @@ export class FigureRenderer extends FigureController {
   }
 
   /** Applies changes and adds samples without drawing, while the figure is out of the viewport. */
-  #updateUnseen() {
+  #updateInvisible() {
     const { figure } = this;
     figure.runtime.attemptOrFail(() => {
       const { simulation, cloud, settings } = figure;

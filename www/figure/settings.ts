@@ -115,7 +115,7 @@ export class FigureSettings extends FigureController {
     if (stateVersion !== STATE_VERSION) throw createRefusalError('state.version', stateVersion, String(STATE_VERSION));
     const currentState = figure.takeSnapshot();
     const changedFields = checkObject('state', figureState, Object.keys(currentState));
-    const wholeState: StateValues = { ...currentState, ...figure.withDerivedFields(currentState, changedFields) };
+    const wholeState: StateValues = { ...currentState, ...figure.addDerivedFields(currentState, changedFields) };
     // Checks the settings first, because the number of samples limits other fields.
     const simulation = figure.createSimulation(figure.motion);
     figure.enterState(simulation, wholeState);

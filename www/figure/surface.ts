@@ -130,8 +130,8 @@ async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) 
   if (!figure.simulation || document.activeElement !== document.body) return;
   const focusableElements = focusableElementsIn(figure.renderRoot);
   // If the previous focus was below the figure, Shift+Tab was pressed.
-  const comesFromBelow = previousFocus instanceof Node && figure.compareDocumentPosition(previousFocus) & Node.DOCUMENT_POSITION_FOLLOWING;
-  focusableElements.at(comesFromBelow ? -1 : 0)?.focus();
+  const isFocusFromBelow = previousFocus instanceof Node && figure.compareDocumentPosition(previousFocus) & Node.DOCUMENT_POSITION_FOLLOWING;
+  focusableElements.at(isFocusFromBelow ? -1 : 0)?.focus();
 }
 
 const CHANGING_TEXT_SELECTOR = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';

@@ -90,11 +90,11 @@ const UNIT_WORDS: [RegExp, ParsedUnit['quantityName'], ParsedUnit['unitName']][]
 const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 
 /** Pattern of texts in brackets that mean "no unit". */
-const EMPTY_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
+const EMPTY_UNIT_PATTERN = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
 /** Patterns of a unit at the end of a name: in brackets ("x [m]"), or after a separator ("x_m"). The "in" of "x_in" means input, not inches. */
 const UNIT_IN_BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
-const UNIT_AT_END = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|ft|rad|deg)[._ /]s|(?!in_?$)[^._ /]+)_?$/;
+const UNIT_AT_END_PATTERN = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|ft|rad|deg)[._ /]s|(?!in_?$)[^._ /]+)_?$/;
 
 function unitOf(unitText: string): ParsedUnit | undefined {
   const lowerText = unitText.trim().toLowerCase().replace(/^dps$/, 'deg/s');
@@ -125,7 +125,7 @@ export function parseColumnName(columnName: string): ColumnMeaning | undefined {
   const nameWithoutUnit = columnName.slice(0, columnName.length - bracketedUnit.length);
   const dottedPath = toDottedName(nameWithoutUnit);
   const fullNameMeaning = matchField(dottedPath);
-  if (!EMPTY_UNIT.test(unitText.trim())) {
+  if (!EMPTY_UNIT_PATTERN.test(unitText.trim())) {
     const parsedUnit = unitOf(unitText);
     return fullNameMeaning && canHaveUnit(fullNameMeaning.logField, parsedUnit) ? { ...fullNameMeaning, unitName: parsedUnit?.unitName ?? unitText.trim() } : undefined;
   }
@@ -136,7 +136,7 @@ export function parseColumnName(columnName: string): ColumnMeaning | undefined {
     const parsedUnit = unitOf(dottedPath.replace(/.*\./, ''));
     return { ...fullNameMeaning, ...(parsedUnit && canHaveUnit(fullNameMeaning.logField, parsedUnit) && { unitName: parsedUnit.unitName }) };
   }
-  const [unitSuffix, unitWord] = UNIT_AT_END.exec(nameWithoutUnit) ?? [];
+  const [unitSuffix, unitWord] = UNIT_AT_END_PATTERN.exec(nameWithoutUnit) ?? [];
   const parsedUnit = unitWord === undefined ? undefined : unitOf(unitWord.replace(/[. ]/, '_'));
   const columnMeaning = unitSuffix !== undefined && parsedUnit ? matchField(toDottedName(nameWithoutUnit.slice(0, -unitSuffix.length))) : undefined;
   if (columnMeaning && parsedUnit && canHaveUnit(columnMeaning.logField, parsedUnit)) return { ...columnMeaning, unitName: parsedUnit.unitName };
@@ -155,8 +155,8 @@ export function isOtherQuantity(columnName: string): boolean {
 }
 
 /** Returns the name that the user gives a column. If this name states no unit, the unit that the file states for the column is added, where it fits. */
-export function withUnitInFile(givenName: string, nameInFile: string): string {
-  const unitText = (UNIT_IN_BRACKETS.exec(nameInFile) ?? UNIT_AT_END.exec(nameInFile))?.[1] ?? '';
+export function addUnitInFile(givenName: string, nameInFile: string): string {
+  const unitText = (UNIT_IN_BRACKETS.exec(nameInFile) ?? UNIT_AT_END_PATTERN.exec(nameInFile))?.[1] ?? '';
   const nameWithUnit = `${givenName} [${unitText}]`;
   return isUnit(unitText) && parseColumnName(givenName)?.unitName === undefined && parseColumnName(nameWithUnit) ? nameWithUnit : givenName;
 }

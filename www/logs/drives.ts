@@ -49,19 +49,19 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
   const usableRecordings = allRecordings.filter((recording) => recording.logRole || readableSeriesOf(recording).length > 0);
   const usedRecordings = usableRecordings.length > 0 ? usableRecordings : allRecordings;
   for (const recording of allRecordings) if (!usedRecordings.includes(recording)) onSkip?.(createUnusableError(recording));
-  const rolesByName = usedRecordings.map((recording) => recording.logRole ?? (usedRecordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both'));
-  const isHalfOf = (logRole: LogRole) => 2 * rolesByName.filter((otherRole) => otherRole === logRole).length >= usedRecordings.length;
+  const guessedRoles = usedRecordings.map((recording) => recording.logRole ?? (usedRecordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both'));
+  const isHalfInRole = (logRole: LogRole) => 2 * guessedRoles.filter((otherRole) => otherRole === logRole).length >= usedRecordings.length;
   const drivePlan = usedRecordings.map((recording, i): PlannedRecording => {
     // If at least half of the recordings have the same role, a recording of unknown role gets the other role.
-    const logRole = rolesByName[i] ?? (isHalfOf('odometry') ? 'reference' : isHalfOf('reference') ? 'odometry' : undefined);
+    const logRole = guessedRoles[i] ?? (isHalfInRole('odometry') ? 'reference' : isHalfInRole('reference') ? 'odometry' : undefined);
     if (!logRole) throw new LogError({ fileName: recording.recordingName }, (errorReasons) => errorReasons.unknownRoleReason, { optionName: 'roles', possibleAnswers: [] });
     return { recording, logChoices: logRole === 'both' ? chooseBothLogs(recording, userChoices) : { [logRole]: chooseLog(recording, logRole, userChoices) } };
   });
   const recordingsWith = (logRole: LogRole) => drivePlan.filter(({ logChoices }) => logChoices[logRole]);
   // If there are separate files for one role, the logs of that role in recordings with odometry and reference are not used.
-  const [scarceRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? LOG_ROLES : LOG_ROLES.toReversed();
+  const [rarerRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? LOG_ROLES : LOG_ROLES.toReversed();
   const completeRecordings = drivePlan.filter(({ logChoices }) => logChoices.odometry && logChoices.reference);
-  if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(scarceRole).length) for (const { logChoices } of completeRecordings) delete logChoices[replacedRole];
+  if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(rarerRole).length) for (const { logChoices } of completeRecordings) delete logChoices[replacedRole];
   const [odometryRecordings, referenceRecordings] = LOG_ROLES.map((logRole) => recordingsWith(logRole).map(({ recording }) => recording));
   if (odometryRecordings.length !== referenceRecordings.length) {
     const unpairedRecordings = odometryRecordings.length > referenceRecordings.length ? odometryRecordings : referenceRecordings;
@@ -82,7 +82,7 @@ function roleOfRecording(recording: Recording, userChoices: UserChoices): LogRol
   // A file with several rigid bodies has candidates for both roles, and therefore logs, although it is unclear which candidate to read.
   const hasLogs = isOdometry || LOG_ROLES.every((logRole) => findCandidates(recording, logRole, userChoices).some(({ length }) => length > 0));
   if (!hasLogs) return 'both';
-  return roleByName(recording.recordingName) ?? (recording.seriesList.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
+  return guessRoleFromName(recording.recordingName) ?? (recording.seriesList.some(({ hasCommands }) => hasCommands) ? 'odometry' : undefined);
 }
 
 /** Returns the result of a function, or undefined if it throws an expected LogError. */
@@ -174,14 +174,14 @@ function createUnusableError({ recordingName, seriesList }: Recording): LogError
 /** Returns the role of the only series in a recording, from the name of the series, its contents or the name of the file; undefined if none of these shows a role. */
 function roleOfSeries({ recordingName }: Recording, { seriesName, messageType, seriesKind, hasCommands }: Series): LogRole | undefined {
   if (seriesKind === 'commands') return 'odometry';
-  return roleByName(seriesName) ?? (hasCommands || /Odometry$/.test(messageType) ? 'odometry' : roleByName(recordingName));
+  return guessRoleFromName(seriesName) ?? (hasCommands || /Odometry$/.test(messageType) ? 'odometry' : guessRoleFromName(recordingName));
 }
 
 /** Returns true if a localizer, or a filter of the odometry, probably estimated the poses of a log, judging by the log's name or frames. */
 export const isLocalizer = (seriesName: string, framePair?: FramePair): boolean => framePair?.parent === 'map' || ((LOCALIZER_NAMES.test(seriesName) || FILTER_NAMES.test(seriesName)) && !MEASUREMENT_NAMES.test(seriesName));
 
 /** Returns the role that the name of a file shows; undefined if it shows none. */
-export function roleByName(logName: string): LogRole | undefined {
+export function guessRoleFromName(logName: string): LogRole | undefined {
   if (MEASUREMENT_NAMES.test(logName) || LOCALIZER_NAMES.test(logName)) return 'reference';
   return ODOMETRY_FILE_NAMES.test(logName) ? 'odometry' : undefined;
 }
@@ -206,19 +206,19 @@ export function findCandidates(recording: Recording, logRole: LogRole, { logKind
   const chainChoices = seriesWithoutGoals.flatMap(({ seriesName, framePairs = [] }) => findLikeliestFrames(framePairs, logRole).map((framePair) => ({ seriesName, framePair })));
   if (logRole === 'reference') {
     const unfilteredPaths = poseSeries.filter(({ seriesName }) => !FILTER_NAMES.test(seriesName) && !ODOMETRY_NAMES[0].test(seriesName));
-    return [...choiceTiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && seriesWithoutGoals.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chainChoices];
+    return [...rankChoicesByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && seriesWithoutGoals.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chainChoices];
   }
   // A topic of the message type Odometry probably contains wheel odometry.
   const wheelPaths = poseSeries.filter(({ seriesName, messageType }) => !MEASUREMENT_NAMES.test(seriesName) && !LOCALIZER_NAMES.test(seriesName) && (isTableFile || /Odometry$/.test(messageType)));
-  const poseTiers = [...choiceTiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chainChoices];
+  const poseTiers = [...rankChoicesByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chainChoices];
   const commandSeries = seriesWithoutGoals.filter((seriesEntry) => seriesEntry.seriesKind === 'commands' || seriesEntry.hasCommands);
-  const commandTiers = [...choiceTiersByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
+  const commandTiers = [...rankChoicesByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
   return logKind === 'commands' ? [...commandTiers, ...poseTiers] : isTableFile ? [...poseTiers, ...commandTiers] : poseTiers;
 }
 
 const choicesOf = (seriesList: Series[], logKind?: LogKind): LogChoice[] => seriesList.map(({ seriesName }) => ({ seriesName, ...(logKind && { logKind }) }));
 
-const choiceTiersByName = (seriesList: Series[], namePatterns: RegExp[], logKind?: LogKind): LogChoice[][] => namePatterns.map((namePattern) => choicesOf(seriesList.filter(({ seriesName }) => namePattern.test(seriesName)), logKind));
+const rankChoicesByName = (seriesList: Series[], namePatterns: RegExp[], logKind?: LogKind): LogChoice[][] => namePatterns.map((namePattern) => choicesOf(seriesList.filter(({ seriesName }) => namePattern.test(seriesName)), logKind));
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
 function findLikeliestFrames(framePairs: FramePair[], logRole: LogRole): FramePair[] {

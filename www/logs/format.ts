@@ -1,6 +1,6 @@
 /** Format of a table (separator, preamble and header) from its first lines, and parsers of the numbers and dates in its cells. */
 
-import { groupColumnsByPrefix, isHeader, isOtherQuantity, isUnit, parseColumnName, withUnitInFile, type ColumnGroup } from './columns.ts';
+import { groupColumnsByPrefix, isHeader, isOtherQuantity, isUnit, parseColumnName, addUnitInFile, type ColumnGroup } from './columns.ts';
 import { LogError, truncate, type ErrorPlace, type UserQuestion } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
@@ -83,7 +83,7 @@ function separatorOf(lineTexts: string[]): string {
     const cellRows = lineTexts.map((lineText) => splitCells(lineText, cellSeparator));
     return cellRows.filter(isDataRow).flat().filter(isNumber).length || cellRows.flat().length / 1e6;
   };
-  return [';', '\t', ',', '|', ' '].map((cellSeparator) => ({ cellSeparator, separatorScore: scoreOf(cellSeparator) })).reduce((bestScored, scoredSeparator) => (scoredSeparator.separatorScore > bestScored.separatorScore ? scoredSeparator : bestScored)).cellSeparator;
+  return [';', '\t', ',', '|', ' '].map((cellSeparator) => ({ cellSeparator, separatorScore: scoreOf(cellSeparator) })).reduce((bestSeparator, scoredSeparator) => (scoredSeparator.separatorScore > bestSeparator.separatorScore ? scoredSeparator : bestSeparator)).cellSeparator;
 }
 
 /** Detects the format of a table from its first lines, which include a row if the file has any. Throws a LogError if the columns are ambiguous. */
@@ -111,7 +111,7 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
   if (givenColumnNames) {
     if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (errorReasons) => errorReasons.columnCountReason(rowWidth, givenColumnNames.length));
     const namesInFile = textLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber).map(({ lineText }) => cellsOfLine(lineText)).findLast((rowCells) => rowCells.length === rowWidth);
-    const columnNames = givenColumnNames.map((columnName, i) => withUnitInFile(columnName, namesInFile?.[i] ?? ''));
+    const columnNames = givenColumnNames.map((columnName, i) => addUnitInFile(columnName, namesInFile?.[i] ?? ''));
     return formatOf(columnNames);
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
@@ -131,7 +131,7 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
     return { ...formatOf(columnNames, columnGroups), isSparse: columnGroups.length > 1 || columnNames.some((columnName) => columnName.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
-  const columnNames = columnsByContent(sampledRows);
+  const columnNames = guessColumnsFromContent(sampledRows);
   if (columnNames) return formatOf(columnNames);
   throw new LogError(errorPlace, (errorReasons) => errorReasons.noHeaderReason(rowWidth, truncate(firstRowLine.lineText.trim().replaceAll('\t', ' '))), columnQuestionOf(sampledRows[0].slice(0, rowWidth), sampledRows));
 }
@@ -194,7 +194,7 @@ function headerOf(preambleLines: { lineText: string; lineNumber: number }[], cel
 }
 
 /** Returns the names of the columns of a table without a header, by their number and content. */
-function columnsByContent(sampledRows: string[][]): string[] | undefined {
+function guessColumnsFromContent(sampledRows: string[][]): string[] | undefined {
   const [rowCells] = sampledRows;
   const isQuaternion = (firstIndex: number) => Math.abs(Math.hypot(...rowCells.slice(firstIndex, firstIndex + 4).map((cell) => Number(cell.replace(',', '.')))) - 1) < 0.1;
   if (rowCells.length === TUM_COLUMNS.length && rowCells.every(isNumber)) return TUM_COLUMNS;

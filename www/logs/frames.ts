@@ -7,7 +7,7 @@ import { multiplyQuaternions } from './path.ts';
 import type { LogSample } from './rows.ts';
 
 /** Minimum distance (m) that a frame moves if it counts as travelling. The frame of a joint only turns, and the frame of a suspension moves less. */
-const MIN_TRAVEL = 0.05;
+const MIN_TRAVEL_DISTANCE = 0.05;
 
 /** Pattern of usual names of a robot's base frame. A base frame counts as travelling if it is fixed to a frame that travels. */
 const BASE_FRAME = /base|body|chassis|robot/i;
@@ -15,7 +15,7 @@ const BASE_FRAME = /base|body|chassis|robot/i;
 /** Transform with the time of recording (s) and the number of its message. */
 interface RecordedTransform extends StampedTransform { recordTime: number; messageNumber: number }
 
-const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime);
+const recordTimeBisector = bisector(({ recordTime }: RecordedTransform) => recordTime);
 
 /** Transforms between a frame and its parent. */
 interface FrameLink extends FramePair {
@@ -85,7 +85,7 @@ export class FrameTree {
    */
   findPoseFrames(): FramePair[] {
     const { frameLinks } = this;
-    const travellingLinks = frameLinks.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL);
+    const travellingLinks = frameLinks.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL_DISTANCE);
     const movingFrames = new Set((travellingLinks.length ? travellingLinks : frameLinks.filter(({ isStatic }) => !isStatic)).map(({ child: childFrame }) => childFrame));
     const childFrames = [...new Set(frameLinks.map(({ child: childFrame }) => childFrame))];
     return childFrames.flatMap((childFrame) => {
@@ -116,7 +116,7 @@ export class FrameTree {
     const samplesByLink = new Map(this.#chainLinks.map((frameLink) => [frameLink, sort(frameLink.recordedTransforms, ({ recordTime }) => recordTime)]));
     const transformAt = (frameLink: FrameLink, recordTime: number) => {
       const recordedTransforms = samplesByLink.get(frameLink) ?? [];
-      return recordedTransforms[Math.max(byRecordTime.right(recordedTransforms, recordTime) - 1, frameLink.isStatic || !frameLink.hasChanged ? 0 : -1)]?.frameTransform;
+      return recordedTransforms[Math.max(recordTimeBisector.right(recordedTransforms, recordTime) - 1, frameLink.isStatic || !frameLink.hasChanged ? 0 : -1)]?.frameTransform;
     };
     for (const recordedTransform of (nearestMovingLink && samplesByLink.get(nearestMovingLink)) ?? []) {
       const chainTransforms = this.#chainLinks.map((frameLink) => (frameLink === nearestMovingLink ? recordedTransform.frameTransform : transformAt(frameLink, recordedTransform.recordTime)));

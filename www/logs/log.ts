@@ -79,7 +79,7 @@ export interface OpenOptions {
 }
 
 /** Function that returns the options for reading the file or log with the given name. */
-export type OptionsByName = (name: string) => OpenOptions | undefined;
+export type FindOptions = (name: string) => OpenOptions | undefined;
 
 /** Question of a LogError to the user: the option that answers it, and the possible answers. */
 export interface UserQuestion {

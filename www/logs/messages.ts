@@ -22,7 +22,7 @@ class MessageReader {
   #messageEnd;
   /** Position in the message from which the alignment of values counts. */
   #messageStart;
-  #isLittle = true;
+  #isLittleEndian = true;
   #maxAlignment = 1;
 
   constructor({ encoding }: TopicChannel, { blockView, messageStart, messageEnd }: MessageBytes) {
@@ -33,14 +33,14 @@ class MessageReader {
     this.#messageStart += CDR_HEADER_BYTES;
     const encodingKind = this.#blockView.getUint8(this.#takeAlignedPosition(CDR_HEADER_BYTES) + 1);
     if (encodingKind > 1) throw new RangeError(`CDR of kind ${encodingKind}`);
-    this.#isLittle = encodingKind === 1;
+    this.#isLittleEndian = encodingKind === 1;
     this.#maxAlignment = 8;
   }
 
   /** Reads the stamp of a header, s. In ROS 1 a sequence number comes first. */
   readStamp(): number {
     if (this.#maxAlignment === 1) this.skipBytes(4);
-    return this.#blockView.getInt32(this.#takeAlignedPosition(4), this.#isLittle) + this.readUint32() / 1e9;
+    return this.#blockView.getInt32(this.#takeAlignedPosition(4), this.#isLittleEndian) + this.readUint32() / 1e9;
   }
 
   /** Skips bytes. Throws a RangeError if the message has fewer bytes left. */
@@ -50,11 +50,11 @@ class MessageReader {
   }
 
   readUint32(): number {
-    return this.#blockView.getUint32(this.#takeAlignedPosition(4), this.#isLittle);
+    return this.#blockView.getUint32(this.#takeAlignedPosition(4), this.#isLittleEndian);
   }
 
   readFloat64(): number {
-    return this.#blockView.getFloat64(this.#takeAlignedPosition(8), this.#isLittle);
+    return this.#blockView.getFloat64(this.#takeAlignedPosition(8), this.#isLittleEndian);
   }
 
   readString(): string {

@@ -2,7 +2,7 @@
 
 import { group, sort } from 'd3-array';
 import type { MessageContainer } from './formats/container.ts';
-import { LogError, readBytes, type OpenOptions, type OptionsByName, type Recording, type SourceFile } from './log.ts';
+import { LogError, readBytes, type OpenOptions, type FindOptions, type Recording, type SourceFile } from './log.ts';
 import { openTable } from './table.ts';
 
 type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
@@ -28,7 +28,7 @@ const JOURNAL_MAGIC = '\x37\x7f\x06';
 const MAX_MAGIC_BYTES = 32;
 
 /** Returns a function for the options of a file or log, from options by file name. The options of a file apply to its logs; those under the name "" apply to all files. */
-export const optionsByNameOf = (optionsByFile: [file: string, OpenOptions][]): OptionsByName => (name) =>
+export const createOptionsFinder = (optionsByFile: [file: string, OpenOptions][]): FindOptions => (name) =>
   Object.assign({}, ...optionsByFile.filter(([file]) => file === '' || name === file || name.startsWith(`${file}, `)).map(([, options]) => options));
 
 /**
@@ -38,7 +38,7 @@ export const optionsByNameOf = (optionsByFile: [file: string, OpenOptions][]): O
  * @param optionsOf returns the options of a file, and of a log in it
  * @param onSkip called with the error of each file that is not a log, and is skipped; without `onSkip` the first error rejects
  */
-export async function openRecordings(givenFiles: SourceFile[], optionsOf: OptionsByName = () => undefined, onSkip?: (error: LogError) => void): Promise<Recording[]> {
+export async function openRecordings(givenFiles: SourceFile[], optionsOf: FindOptions = () => undefined, onSkip?: (error: LogError) => void): Promise<Recording[]> {
   const reportSkipped = (doWork: () => Promise<void>) => doWork().catch((error) => {
     if (!(error instanceof LogError) || !onSkip) throw error;
     onSkip(error);

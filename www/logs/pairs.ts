@@ -2,7 +2,7 @@
 
 import { min, zip } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
-import { isLocalizer, roleByName, type PlannedRecording } from './drives.ts';
+import { isLocalizer, guessRoleFromName, type PlannedRecording } from './drives.ts';
 import { LogError, LOG_ROLES, UNIT_NAMES, formatFrames, type Log, type LogChoice, type LogNote, type Poses, type LogRole, type LogSummary, type LogWarning } from './log.ts';
 import { pathOf, poseAt, wrapAngle, type TimedPath } from './path.ts';
 import { METRES_PER_UNIT, logSpeedOf } from './units.ts';
@@ -58,7 +58,7 @@ export function pairLogs(odometryLog: Log, referenceLog: Log): LoggedDrive {
   checkLengthUnits(matchedLogs);
   const logNotes: LogNote[] = [
     ...brokenReference.logSummary.notes,
-    ...(roleByName(odometryLog.logName) !== 'odometry' && roleByName(referenceLog.logName) === 'odometry' ? [{ name: 'swappedRoles' as const, values: [odometryLog.logName] }] : []),
+    ...(guessRoleFromName(odometryLog.logName) !== 'odometry' && guessRoleFromName(referenceLog.logName) === 'odometry' ? [{ name: 'swappedRoles' as const, values: [odometryLog.logName] }] : []),
     ...(isLocalizer(referenceLog.logName, framePair) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlapSecondsOf(odometryLog, referenceLog) < 0 ? [{ name: 'apart' as const, values: [odometryLog.logName, formatTimeSpan(referenceLog), formatTimeSpan(odometryLog)] }] : []),
   ];

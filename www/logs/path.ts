@@ -81,10 +81,10 @@ export function distanceOf(motionData: Poses | Commands, jumpRows: number[]): nu
     return pathLength;
   }
   const { x, y } = motionData;
-  for (let i = 1, lastRow = 0, nextJump = 0; i < t.length; i++) {
+  for (let i = 1, lastRow = 0, nextJumpIndex = 0; i < t.length; i++) {
     const stepLength = Math.hypot(x[i] - x[lastRow], y[i] - y[lastRow]);
-    const isJump = jumpRows[nextJump] === i;
-    if (isJump) nextJump += 1;
+    const isJump = jumpRows[nextJumpIndex] === i;
+    if (isJump) nextJumpIndex += 1;
     else if (stepLength < MIN_STEP_METRES) continue;
     else pathLength += stepLength;
     lastRow = i;

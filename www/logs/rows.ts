@@ -153,7 +153,7 @@ export class RowCollector {
     const judgedUnits = judgeUnits(this.#logPlace, logKind, sampleColumns, assumedUnits, openOptions, createColumnQuestion);
     const pathDistance = logKind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (errorReasons) => errorReasons.alternatingPathsReason(pathDistance));
-    const { jumpRows, ...foundGaps } = findEvents(logKind, [t, a, b, c]);
+    const { jumpRows, ...eventSummary } = findEvents(logKind, [t, a, b, c]);
     const motionData = { t, ...(logKind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks: Uint32Array.from(jumpRows) } as Log['motionData'];
     const logNotes: LogNote[] = [
       ...logDecisions.notes,
@@ -162,7 +162,7 @@ export class RowCollector {
     const seconds = t[t.length - 1] - t[0];
     const clockName = clockNames[usesOtherClock ? 1 : 0] ?? '';
     const logSummary = {
-      rows: rowCount, used: t.length, dropped: this.#droppedRows, seconds, distance: distanceOf(motionData, jumpRows), ...foundGaps,
+      rows: rowCount, used: t.length, dropped: this.#droppedRows, seconds, distance: distanceOf(motionData, jumpRows), ...eventSummary,
       ...logDecisions, ...(logDecisions.columns && { columns: { ...logDecisions.columns, t: clockName } }), units: judgedUnits, clock: clockName, notes: logNotes,
     };
     return { logName, logKind, startTime: sampleColumns.startTime, motionData, logSummary, ...(createColumnQuestion && { mirroringQuestion: createColumnQuestion(COLUMN_CHANGES.mirrored) }) };
@@ -191,9 +191,9 @@ export class RowCollector {
     const { a, b } = this.#rowColumns;
     const rowTimes = Array.from(rowIndices, (rowIndex) => this.#times[rowIndex]);
     // Runs are sequences of rows in the file with rising times.
-    const runOfRow = new Uint32Array(rowIndices.length);
-    for (let i = 1; i < rowIndices.length; i++) runOfRow[i] = runOfRow[i - 1] + Number(rowTimes[i] < rowTimes[i - 1]);
-    if (!runOfRow.at(-1)) return { sortedRows: rowIndices, lateCount: 0 };
+    const runIndexOfRow = new Uint32Array(rowIndices.length);
+    for (let i = 1; i < rowIndices.length; i++) runIndexOfRow[i] = runIndexOfRow[i - 1] + Number(rowTimes[i] < rowTimes[i - 1]);
+    if (!runIndexOfRow.at(-1)) return { sortedRows: rowIndices, lateCount: 0 };
     const sortedOrder = rowIndices.map((_, i) => i).sort((sortPosition, otherPosition) => rowTimes[sortPosition] - rowTimes[otherPosition] || sortPosition - otherPosition);
     const medianStep = quantileOf(sampleEvenly(rowTimes.length - 1, (i) => rowTimes[sortedOrder[i + 1]] - rowTimes[sortedOrder[i]]).filter((timeStep) => timeStep > 0), 0.5);
     const distanceBetween = (sortPosition: number, otherPosition: number) => Math.hypot(a[rowIndices[sortPosition]] - a[rowIndices[otherPosition]], b[rowIndices[sortPosition]] - b[rowIndices[otherPosition]]);
@@ -202,18 +202,18 @@ export class RowCollector {
     const runOverlaps: { runIndex: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < sortedOrder.length; i++) {
       const [previousPosition, sortPosition] = [sortedOrder[i - 1], sortedOrder[i]];
-      const isOverlap = runOfRow[previousPosition] !== runOfRow[sortPosition] && rowTimes[sortPosition] - rowTimes[previousPosition] < MAX_OVERLAP_STEPS * medianStep && !this.#hasSameValues(rowIndices[previousPosition], rowIndices[sortPosition]);
-      const runIndex = Math.max(runOfRow[previousPosition], runOfRow[sortPosition]);
+      const isOverlap = runIndexOfRow[previousPosition] !== runIndexOfRow[sortPosition] && rowTimes[sortPosition] - rowTimes[previousPosition] < MAX_OVERLAP_STEPS * medianStep && !this.#hasSameValues(rowIndices[previousPosition], rowIndices[sortPosition]);
+      const runIndex = Math.max(runIndexOfRow[previousPosition], runIndexOfRow[sortPosition]);
       if (isOverlap) runOverlaps.push({ runIndex, sortedLength: distanceBetween(previousPosition, sortPosition), fileLength: distanceBetween(sortPosition, Math.max(sortPosition, 1) - 1) });
     }
-    const isSetBack = (overlapsOfRun: typeof runOverlaps, maxCount: number) => {
+    const isClockSetBack = (overlapsOfRun: typeof runOverlaps, maxCount: number) => {
       const hasShorterPath = sum(overlapsOfRun, ({ sortedLength }) => sortedLength) < MAX_LATE_PATH_RATIO * sum(overlapsOfRun, ({ fileLength }) => fileLength);
       return overlapsOfRun.length > maxCount && !(hasShorterPath && overlapsOfRun.length >= MIN_LATE_ROWS);
     };
-    const hasManyOverlaps = isSetBack(runOverlaps, Math.max(MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION * rowIndices.length));
-    const [setBackRun] = [...group(runOverlaps, ({ runIndex }) => runIndex)].find(([, overlapsOfRun]) => hasManyOverlaps || isSetBack(overlapsOfRun, MAX_RUN_OVERLAPS)) ?? [];
+    const hasManyOverlaps = isClockSetBack(runOverlaps, Math.max(MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION * rowIndices.length));
+    const [setBackRun] = [...group(runOverlaps, ({ runIndex }) => runIndex)].find(([, overlapsOfRun]) => hasManyOverlaps || isClockSetBack(overlapsOfRun, MAX_RUN_OVERLAPS)) ?? [];
     if (setBackRun !== undefined) {
-      const setBackRow = runOfRow.indexOf(setBackRun);
+      const setBackRow = runIndexOfRow.indexOf(setBackRun);
       const lineNumber = this.#rowColumns.lineNumbers[rowIndices[setBackRow]];
       throw new LogError({ ...this.#logPlace, lineNumber }, (errorReasons) => errorReasons.clockSetBackReason(rowTimes[setBackRow - 1] - rowTimes[setBackRow]));
     }

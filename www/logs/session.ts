@@ -7,7 +7,7 @@ import { planDrives, type PlannedRecording, type UserChoices } from './drives.ts
 import { calibrationLogOf, readDrives, warningsOf, type LoggedDrive } from './pairs.ts';
 import { english } from './en.ts';
 import { LogError, choiceLabelOf, type OpenOptions, type Recording, type SourceFile, type LogWarning } from './log.ts';
-import { openRecordings, optionsByNameOf } from './open.ts';
+import { openRecordings, createOptionsFinder } from './open.ts';
 
 /** LogError as posted to the page, with its sentence in each language. */
 export type LogFailure = Pick<LogError, 'message' | 'errorPlace' | 'userQuestion'> & { sentencesByLanguage: Record<'en' | 'de', string> };
@@ -48,7 +48,7 @@ export class LogSession {
     const describeRecordings = () => openedRecordings.map(({ recordingName, recordingFormat, seriesList }, i) => ({ recordingName, recordingFormat, seriesList, logChoices: drivePlan?.find(({ recording }) => recording === openedRecordings[i])?.logChoices }));
     let nextProgress = 0;
     try {
-      openedRecordings = await openRecordings(namedFiles, optionsByNameOf(Object.entries(optionsByFile)), onSkip);
+      openedRecordings = await openRecordings(namedFiles, createOptionsFinder(Object.entries(optionsByFile)), onSkip);
       if (openedRecordings.length === 0) return { openedRecordings, skippedFiles, refusalOfAll: skippedFiles[0] };
       drivePlan = planDrives(openedRecordings, userChoices, onSkip);
       const loggedDrives = await readDrives(drivePlan, (progressFraction) => {

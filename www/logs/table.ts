@@ -2,7 +2,7 @@
 
 import { COLUMN_CHANGES, changeColumns, findLogLayout, type RowClock, type ColumnGroup, type LogField } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type LogNote, type OpenOptions, type OptionsByName, type Recording, type Series, type SourceFile, type LogSummary, type TimeUnit } from './log.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Log, type LogNote, type OpenOptions, type FindOptions, type Recording, type Series, type SourceFile, type LogSummary, type TimeUnit } from './log.ts';
 import { rotationOf, type UnitQuaternion } from './path.ts';
 import { RowCollector } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
@@ -27,7 +27,7 @@ const [MIN_TILT_SPREAD, MAX_TILT_RATIO] = [0.001, 0.1];
 /** Minimum number of rows with equally many decimals in the last column. If the last row after them has fewer decimals, the file is cut off. */
 const MIN_UNIFORM_ROWS = 20;
 
-export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName): Promise<Recording> {
+export async function openTable(sourceFile: SourceFile, optionsOf: FindOptions): Promise<Recording> {
   const headBytes = await readBytes(sourceFile, 0, Math.min(HEAD_BYTES, sourceFile.size));
   const encoding = detectEncoding(headBytes);
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
@@ -54,7 +54,7 @@ export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName
     seriesList: allSeries,
     async readLogs(logChoices, onProgress) {
       /** Reads the chosen logs. With a change of columns, it reads only logs that have all columns of the change. */
-      const readWith = async (changeName?: TiltChange) => {
+      const readWithChange = async (changeName?: TiltChange) => {
         const logReaders = logChoices.map(({ seriesName, logKind }) => {
           const chosenGroup = tableFormat.columnGroups[allSeries.findIndex(({ seriesName: candidateName }) => candidateName === seriesName)];
           const logName = readableGroups.length === 1 ? sourceFile.name : `${sourceFile.name}, ${seriesOfGroup(chosenGroup).seriesName}`;
@@ -67,11 +67,11 @@ export async function openTable(sourceFile: SourceFile, optionsOf: OptionsByName
         });
         return logReaders;
       };
-      let logReaders = (await readWith()) as LogReader[];
+      let logReaders = (await readWithChange()) as LogReader[];
       // A robot turns about its vertical axis, so that the tilt of this axis hardly varies. Columns are read in another order if the tilt of Z then varies far less.
       for (const changeName of ['yUp', 'wFirst'] as const) {
         if (!logReaders.some(({ rows: rowCollector }) => rowCollector.tiltCosineSpread > MIN_TILT_SPREAD)) break;
-        const changedReaders = await readWith(changeName);
+        const changedReaders = await readWithChange(changeName);
         logReaders = logReaders.map((logReader, i) => {
           const changedReader = changedReaders[i];
           return changedReader && changedReader.rows.tiltCosineSpread < MAX_TILT_RATIO * logReader.rows.tiltCosineSpread ? changedReader : logReader;
@@ -101,7 +101,7 @@ function detectEncoding(bytes: Uint8Array): string {
 async function readLines(sourceFile: SourceFile, encoding: string, firstLineNumber: number, onProgress: ((progressFraction: number) => void) | undefined, addLine: (lineText: string, lineNumber: number, isUnterminated: boolean) => void) {
   const textDecoder = new TextDecoder(encoding);
   let [incompleteLine, lineNumber] = ['', 0];
-  const passLine = (lineText: string, isUnterminated: boolean) => {
+  const handleLine = (lineText: string, isUnterminated: boolean) => {
     lineNumber += 1;
     if (lineNumber >= firstLineNumber) addLine(lineText, lineNumber, isUnterminated);
   };
@@ -110,10 +110,10 @@ async function readLines(sourceFile: SourceFile, encoding: string, firstLineNumb
     const blockText = incompleteLine + textDecoder.decode(await readBytes(sourceFile, byteOffset, Math.min(byteOffset + BLOCK_BYTES, sourceFile.size)), { stream: true });
     const lineTexts = blockText.split('\n');
     incompleteLine = lineTexts.pop() ?? '';
-    for (const lineText of lineTexts) passLine(lineText, false);
+    for (const lineText of lineTexts) handleLine(lineText, false);
     if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ fileName: sourceFile.name, lineNumber: lineNumber + 1 }, (errorReasons) => errorReasons.longLineReason(MAX_LINE_LENGTH));
   }
-  passLine(incompleteLine + textDecoder.decode(), true);
+  handleLine(incompleteLine + textDecoder.decode(), true);
 }
 
 /** Returns a reader of the times of a table. If the unit is not stated, the reader judges it by the size of the first time that is not 0. */
@@ -153,7 +153,7 @@ function createLogReader(logName: string, errorPlace: ErrorPlace, tableFormat: T
   const { clocks: rowClocks, usedColumns, fields: usedFields, kind: logKind, lengthUnit, angleUnit } = logLayout;
   const rowCollector = new RowCollector(errorPlace);
   const logNotes: LogNote[] = changeName ? [{ name: changeName, values: [] }] : [];
-  const normalizeCell = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
+  const normalizeCell = hasDecimalCommas ? replaceDecimalComma : (cell: string) => cell;
   const clockReaders = rowClocks.map((rowClock, i) => createClockReader(rowClock, i === 0 ? openOptions.timeUnit : undefined, normalizeCell));
   // Columns with the frames, the topic or the robot of a row.
   const nameColumns = [columnGroup.fieldColumns.source, columnGroup.fieldColumns.frame, columnGroup.fieldColumns.child].filter((tableColumn) => tableColumn !== undefined);
@@ -233,4 +233,4 @@ function createLogReader(logName: string, errorPlace: ErrorPlace, tableFormat: T
 }
 
 /** Replaces a decimal comma by a point. If the cell also has a point, it is ambiguous: a question mark is appended, so that it is refused as a number. */
-const withDecimalPoint = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));
+const replaceDecimalComma = (cell: string) => (cell.includes('.') && !cell.includes(':') && /^\s*[+-]?[\d.]+,?\d*\s*$/.test(cell) ? `${cell}?` : cell.replace(',', '.'));

@@ -3,7 +3,7 @@
 import { group, sort, sum } from 'd3-array';
 import type { TopicChannel, MessageContainer, RecordedMessage } from './formats/container.ts';
 import { FrameTree } from './frames.ts';
-import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames, type ErrorReason, type LogChoice, type Log, type LogNote, type OptionsByName, type Recording, type Series } from './log.ts';
+import { LogError, truncate, listNames, reasonOf, RECORDING_CLOCK, formatFrames, type ErrorReason, type LogChoice, type Log, type LogNote, type FindOptions, type Recording, type Series } from './log.ts';
 import { isReadable, logKindOfType, sampleReaderOf, readTransforms } from './messages.ts';
 import { RowCollector } from './rows.ts';
 
@@ -16,7 +16,7 @@ const MAX_TYPE_LENGTH = 100;
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topicName, messageType }: Pick<TopicChannel, 'topicName' | 'messageType'>) => logKindOfType(messageType) === 'transforms' && /(^|\/)tf_static$/.test(topicName);
 
-export async function createRecording(recordingName: string, messageContainer: MessageContainer, optionsOf: OptionsByName): Promise<Recording> {
+export async function createRecording(recordingName: string, messageContainer: MessageContainer, optionsOf: FindOptions): Promise<Recording> {
   const { recordingFormat, topicChannels } = messageContainer;
   if (topicChannels.every(({ messageCount }) => messageCount === 0)) {
     const damageReason = damageReasonOf(messageContainer);
@@ -97,7 +97,7 @@ function createTopicReader(recordingName: string, messageContainer: MessageConta
     },
 
     /** Returns the log; throws a LogError if the messages do not form a log. */
-    buildLog(optionsOf: OptionsByName): Log {
+    buildLog(optionsOf: FindOptions): Log {
       const { recordingFormat, damageReasons, truncationReason } = messageContainer;
       const lossReason = damageReasonOf(messageContainer);
       if (messageCount === 0 && lossReason) throwLogError((errorReasons) => errorReasons.damagedFileReason(lossReason, recordingFormat));

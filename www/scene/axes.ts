@@ -57,12 +57,12 @@ function drawLegend(drawContext: DrawContext, axisName: string, legendEntries: L
   let entryEnd = 2 + canvasContext.measureText(axisName).width;
   Object.assign(canvasContext, { font, fillStyle: palette.ink });
   for (const { name: legendLabel, ...lineStyle } of legendEntries) {
-    const sampleX = entryEnd + LEGEND_LENGTHS_EM.entryGap * fontSize;
-    const nameX = sampleX + (LEGEND_LENGTHS_EM.lineSampleWidth + LEGEND_LENGTHS_EM.nameGap) * fontSize;
+    const lineSampleX = entryEnd + LEGEND_LENGTHS_EM.entryGap * fontSize;
+    const nameX = lineSampleX + (LEGEND_LENGTHS_EM.lineSampleWidth + LEGEND_LENGTHS_EM.nameGap) * fontSize;
     entryEnd = nameX + canvasContext.measureText(legendLabel).width;
     if (entryEnd > pictureView.width) break;
     canvasContext.fillText(legendLabel, nameX, y);
-    drawSwatch(drawContext, lineStyle, [sampleX, y + fontSize / 2], LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
+    drawSwatch(drawContext, lineStyle, [lineSampleX, y + fontSize / 2], LEGEND_LENGTHS_EM.lineSampleWidth * fontSize);
   }
 }
 

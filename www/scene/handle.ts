@@ -64,7 +64,7 @@ export class Handle {
   /** Vector (m) from the pointer to the grasped point. With it, a target that is grasped at its edge does not jump. */
   #gripOffset = [0, 0];
   /** Middle of the handle in pixels of the view, not rounded to device pixels. */
-  #middlePixels: [x: number, y: number] = [0, 0];
+  #handleCentrePixel: [x: number, y: number] = [0, 0];
 
   constructor(classNames: string, callbacks: HandleCallbacks) {
     this.#classNames = classNames;
@@ -78,7 +78,7 @@ export class Handle {
 
   handleHtml({ handleName, keysHint, title, valueRange, sliderValue, valueText, limitText, hintText, tabIndex = 0 }: HandleLabels) {
     // The text about a limit that the handle has reached is on the side that faces the middle of the picture.
-    const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.getView().width ? 'right' : '';
+    const limitTextSide = 2 * this.#handleCentrePixel[0] > this.#callbacks.getView().width ? 'right' : '';
     return html`<div
       class="handle ${this.#classNames} ${limitTextSide} ${this.isHeld ? 'held' : ''}"
       role="slider"
@@ -104,7 +104,7 @@ export class Handle {
   placeElementAt(figureRoot: ParentNode, x: number, y: number, { size: handleSize, angle }: { size?: number, angle?: number } = {}) {
     const handleElement = figureRoot.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handleElement) return;
-    this.#middlePixels = [x, y];
+    this.#handleCentrePixel = [x, y];
     if (handleSize !== undefined) handleElement.style.width = handleElement.style.height = formatEm(handleSize);
     if (angle !== undefined) handleElement.style.rotate = `${angle}rad`;
     handleElement.style.translate = `${formatEm(x)} ${formatEm(y)}`;
@@ -121,7 +121,7 @@ export class Handle {
     handleElement.setPointerCapture(pointerEvent.pointerId);
     this.#heldPointer = { id: pointerEvent.pointerId, element: handleElement };
     const pointerInWorld = this.#worldPointOf(pointerEvent);
-    const graspedPoint = this.#callbacks.findGraspedPoint?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#middlePixels);
+    const graspedPoint = this.#callbacks.findGraspedPoint?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#handleCentrePixel);
     this.#gripOffset = [graspedPoint[0] - pointerInWorld[0], graspedPoint[1] - pointerInWorld[1]];
   };
 

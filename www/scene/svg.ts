@@ -28,7 +28,7 @@ export class SvgContext {
   #pathData = '';
   #dash: number[] = [];
   #elementTexts: string[] = [];
-  #clipCount = 0;
+  #clipPathCount = 0;
   #idPrefix;
   #measuringContext: OffscreenCanvasRenderingContext2D | undefined;
 
@@ -94,7 +94,7 @@ export class SvgContext {
   };
 
   clip() {
-    const clipId = `${this.#idPrefix}-clip${++this.#clipCount}`;
+    const clipId = `${this.#idPrefix}-clip${++this.#clipPathCount}`;
     // The latest element is the group that `save` has opened. A group that is clipped to the path replaces it.
     this.#elementTexts.splice(-1, 1, `<clipPath id="${clipId}"><path d="${this.#pathData}"/></clipPath><g clip-path="url(#${clipId})">`);
   }

@@ -22,7 +22,7 @@ export class PictureView {
   /** Part of the world that the view has to show, also after a change of the canvas size. */
   #requiredExtent: WorldExtent | undefined;
   /** Minimum fraction of the view that its content fills after the next fit. With 0 the view only zooms out. */
-  #minFill = 0;
+  #minFillFraction = 0;
   /** True after the view has zoomed out. The picture resets this flag. */
   hasZoomedOut = false;
   /** Limits of the extent, such as the bounds of a map. An extent larger than the limits is centred on them. */
@@ -60,8 +60,8 @@ export class PictureView {
   }
 
   /** Lets the next fit zoom in and recenter if the content fills less than `minFill` of the view. With 1 it always does. */
-  allowZoomIn(minFill = MIN_FILL) {
-    this.#minFill = Math.max(this.#minFill, minFill);
+  allowZoomIn(minFillFraction = MIN_FILL) {
+    this.#minFillFraction = Math.max(this.#minFillFraction, minFillFraction);
   }
 
   /** Resets the view, so that the next fit takes effect without an animation. */
@@ -126,15 +126,15 @@ export class PictureView {
 
   /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. After `allowZoomIn` it may also zoom in. */
   fitExtent(neededExtent: WorldExtent) {
-    const [keptTarget, minFill] = [this.#targetExtent, this.#minFill];
-    this.#minFill = 0;
-    if (keptTarget && isInside(neededExtent, keptTarget) && this.#fillOf(keptTarget, neededExtent) >= minFill) return;
-    this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
+    const [savedTarget, minFillFraction] = [this.#targetExtent, this.#minFillFraction];
+    this.#minFillFraction = 0;
+    if (savedTarget && isInside(neededExtent, savedTarget) && this.#fillFractionOf(savedTarget, neededExtent) >= minFillFraction) return;
+    this.hasZoomedOut = savedTarget !== undefined && minFillFraction === 0;
     const { xMin, xMax, yMin, yMax } = neededExtent;
     const paddedExtent = widenExtent(neededExtent, this.#relativeMargin * (xMax - xMin), this.#relativeMargin * (yMax - yMin));
-    this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
+    this.#requiredExtent = savedTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, savedTarget) : paddedExtent;
     this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
-    if (!keptTarget) this.shownExtent = this.#targetExtent;
+    if (!savedTarget) this.shownExtent = this.#targetExtent;
   }
 
   /** Moves the extent towards its target for the elapsed time, or at once if `isImmediate`. Returns true if the target is not reached yet. */
@@ -144,12 +144,12 @@ export class PictureView {
     const progressFraction = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
     const nextExtent = interpolateExtent(this.shownExtent, targetExtent, progressFraction);
     const remainingDistanceOf = (minKey: keyof WorldExtent, maxKey: keyof WorldExtent) => Math.abs(nextExtent[minKey] - targetExtent[minKey]) + Math.abs(nextExtent[maxKey] - targetExtent[maxKey]);
-    const hasArrived = remainingDistanceOf('xMin', 'xMax') * this.scaleX + remainingDistanceOf('yMin', 'yMax') * this.scaleY < 0.5;
-    this.shownExtent = hasArrived || isImmediate ? targetExtent : nextExtent;
+    const hasReachedTarget = remainingDistanceOf('xMin', 'xMax') * this.scaleX + remainingDistanceOf('yMin', 'yMax') * this.scaleY < 0.5;
+    this.shownExtent = hasReachedTarget || isImmediate ? targetExtent : nextExtent;
     return this.shownExtent !== targetExtent;
   }
 
-  #fillOf(currentExtent: WorldExtent, neededExtent: WorldExtent) {
+  #fillFractionOf(currentExtent: WorldExtent, neededExtent: WorldExtent) {
     const filledFractions = [(neededExtent.xMax - neededExtent.xMin) / (currentExtent.xMax - currentExtent.xMin), (neededExtent.yMax - neededExtent.yMin) / (currentExtent.yMax - currentExtent.yMin)];
     return Math[this.#hasEqualScales ? 'max' : 'min'](...filledFractions);
   }

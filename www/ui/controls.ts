@@ -281,7 +281,7 @@ interface NumberField extends AllowedNumbers {
   /** Number in the field, or null for an empty field. */
   value: number | null;
   /** Range and step for the arrow keys, if not every allowed number can be reached with them. */
-  arrowRange?: { min: number, max: number, step: number };
+  arrowKeyRange?: { min: number, max: number, step: number };
   id?: string;
   /** Id of the element that labels the field, if no `label` does. The Tab key then skips the field. */
   labelId?: string;
@@ -297,12 +297,12 @@ interface NumberField extends AllowedNumbers {
  * Returns a number field, which must be in a form of its own. The browser checks what the user types, and says on Enter why it is not
  * allowed. Escape, or leaving the field, restores the number.
  */
-export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValue, type: numberType, arrowRange, id, labelId, isOptional = false, placeholder, isDisabled = false, onChange }: NumberField) {
+export function numberFieldHtml({ value: fieldValue, min: minValue, max: maxValue, type: numberType, arrowKeyRange, id, labelId, isOptional = false, placeholder, isDisabled = false, onChange }: NumberField) {
   const typingRange = { min: minValue, max: maxValue, step: numberType === 'whole' ? '1' : 'any' };
   const handleKey = (keyEvent: KeyboardEvent) => {
     const numberField = inputOf(keyEvent);
     // Arrow keys step in units of `step` from `min`, and need another range than typed numbers.
-    Object.assign(numberField, keyEvent.key.startsWith('Arrow') ? arrowRange : typingRange);
+    Object.assign(numberField, keyEvent.key.startsWith('Arrow') ? arrowKeyRange : typingRange);
     if (keyEvent.key !== 'Escape') return;
     numberField.form?.reset();
     // Without this call, Escape would also end a presentation.

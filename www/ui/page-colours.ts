@@ -37,7 +37,7 @@ export function readPageColours(colourProbe: Element): PageColours {
   const colourScheme = backgroundLightness < (isLegible ? lightnessOf(textColour) : 0.5) ? 'dark' : 'light';
   // Darker backgrounds need darker lines. Nearly white backgrounds need no darkening.
   const darkening = colourScheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
-  const mixMutedColour = (textShare: number) => backgroundColour.map((channelValue, i) => channelValue + (textShare / 100) * (textColour[i] - channelValue));
+  const mixMutedColour = (textPercent: number) => backgroundColour.map((channelValue, i) => channelValue + (textPercent / 100) * (textColour[i] - channelValue));
   const mutedShare = isLegible ? `${MUTED_SHARES.find((textShare) => contrastRatioOf(mixMutedColour(textShare), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
   return { background: `rgb(${backgroundColour})`, text: isLegible ? color : '', darkening, mutedShare, scheme: colourScheme };
 }

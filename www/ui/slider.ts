@@ -157,7 +157,7 @@ export function sliderRowHtml(sliderRow: SliderRow) {
       ${sliderTrackHtml({ ...sliderRow, ...rangeOfStops(sliderRow), name: undefined, valueText: printedValue, describedBy: `${id}-effect`, onKeydown: focusField })}
       <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText} @submit=${focusTrack} @keydown=${(keyEvent: KeyboardEvent) => keyEvent.key === 'Escape' && focusTrack(keyEvent)}>
         <span>${printedValue}</span>
-        ${numberFieldHtml({ ...allowedNumbers, value: Number(sliderValue.toPrecision(MAX_FIELD_DIGITS)), arrowRange: { min: minValue, max: maxValue, step: sliderStep }, labelId: `${id}-name`, onChange: applyTyped })}
+        ${numberFieldHtml({ ...allowedNumbers, value: Number(sliderValue.toPrecision(MAX_FIELD_DIGITS)), arrowKeyRange: { min: minValue, max: maxValue, step: sliderStep }, labelId: `${id}-name`, onChange: applyTyped })}
       </form>
       <p class="effect muted small" id="${id}-effect">${endAtThumb === undefined ? effectText : words.sliderEndNote(formatValue(endAtThumb))}</p>
     </div>

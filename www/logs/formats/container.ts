@@ -88,26 +88,26 @@ export abstract class MessageFile {
 export const MAX_BLOCK_BYTES = 2 ** 26;
 
 /** Number of bytes in a piece, which is read at once, and number of pieces that are requested in advance. */
-const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
+const [PIECE_BYTES, PREFETCHED_PIECE_COUNT] = [2 ** 22, 3];
 
 /** Returns a reader of bytes at increasing positions. The reader requests the next pieces in advance, which saves a quarter of the reading time in a browser. */
 export function createAheadReader(sourceFile: SourceFile): (byteStart: number, requestedEnd: number) => Promise<Uint8Array> {
-  const pieceReads = new Map<number, Promise<Uint8Array>>();
+  const pieceReadPromises = new Map<number, Promise<Uint8Array>>();
   let lastPieceIndex = -1;
   return async (byteStart, requestedEnd) => {
     const byteEnd = Math.min(requestedEnd, sourceFile.size);
     const firstPieceIndex = Math.floor(byteStart / PIECE_BYTES);
-    const piecesAhead = firstPieceIndex <= lastPieceIndex + 1 ? PIECES_AHEAD : 0;
+    const piecesAhead = firstPieceIndex <= lastPieceIndex + 1 ? PREFETCHED_PIECE_COUNT : 0;
     lastPieceIndex = Math.max(firstPieceIndex, Math.floor((byteEnd - 1) / PIECE_BYTES));
-    for (const i of pieceReads.keys()) if (i < firstPieceIndex) pieceReads.delete(i);
+    for (const i of pieceReadPromises.keys()) if (i < firstPieceIndex) pieceReadPromises.delete(i);
     for (let i = firstPieceIndex; i <= lastPieceIndex + piecesAhead && i * PIECE_BYTES < sourceFile.size; i++) {
-      if (pieceReads.has(i)) continue;
-      const pieceRead = readBytes(sourceFile, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, sourceFile.size));
+      if (pieceReadPromises.has(i)) continue;
+      const pieceReadPromise = readBytes(sourceFile, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, sourceFile.size));
       // If reading a piece fails, the error is reported only when a caller needs that piece.
-      pieceRead.catch(() => {});
-      pieceReads.set(i, pieceRead);
+      pieceReadPromise.catch(() => {});
+      pieceReadPromises.set(i, pieceReadPromise);
     }
-    const neededPartOf = async (i: number) => ((await pieceReads.get(i)) ?? new Uint8Array()).subarray(Math.max(byteStart - i * PIECE_BYTES, 0), byteEnd - i * PIECE_BYTES);
+    const neededPartOf = async (i: number) => ((await pieceReadPromises.get(i)) ?? new Uint8Array()).subarray(Math.max(byteStart - i * PIECE_BYTES, 0), byteEnd - i * PIECE_BYTES);
     if (lastPieceIndex === firstPieceIndex) return neededPartOf(firstPieceIndex);
     const bytes = new Uint8Array(byteEnd - byteStart);
     for (let i = firstPieceIndex; i <= lastPieceIndex; i++) bytes.set(await neededPartOf(i), Math.max(i * PIECE_BYTES - byteStart, 0));

@@ -67,7 +67,7 @@ function* piecesOf(bytes: Uint8Array) {
 const LZ4_MAGIC = 0x184d2204;
 
 /** Flags in the header of an LZ4 frame. */
-const [VERSION_MASK, VERSION_1, BLOCK_CHECKSUMS, CONTENT_SIZE, CONTENT_CHECKSUM, HAS_DICTIONARY] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
+const [VERSION_MASK, VERSION_1, BLOCK_CHECKSUM_FLAG, CONTENT_SIZE_FLAG, CONTENT_CHECKSUM_FLAG, DICTIONARY_FLAG] = [0xc0, 0x40, 0x10, 0x08, 0x04, 0x01];
 
 /** Flag in the length of an LZ4 block, which marks an uncompressed block. */
 const UNCOMPRESSED_BIT = 0x80000000;
@@ -86,16 +86,16 @@ let xxhash32: ((bytes: Uint8Array) => number) | undefined;
 export async function decompressLz4(bytes: Uint8Array, decompressedSize: number): Promise<Uint8Array<ArrayBuffer>> {
   const dataView = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const frameFlags = dataView.getUint8(4);
-  assertValidFrame(dataView.getUint32(0, true) === LZ4_MAGIC && (frameFlags & VERSION_MASK) === VERSION_1 && !(frameFlags & HAS_DICTIONARY));
-  if (frameFlags & (BLOCK_CHECKSUMS | CONTENT_CHECKSUM)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
+  assertValidFrame(dataView.getUint32(0, true) === LZ4_MAGIC && (frameFlags & VERSION_MASK) === VERSION_1 && !(frameFlags & DICTIONARY_FLAG));
+  if (frameFlags & (BLOCK_CHECKSUM_FLAG | CONTENT_CHECKSUM_FLAG)) xxhash32 ??= (await (await import('xxhash-wasm')).default()).h32Raw;
   const verifyChecksum = (checkedBytes: Uint8Array, byteOffset: number) => assertValidFrame(xxhash32?.(checkedBytes) === dataView.getUint32(byteOffset, true));
   const decompressedBytes = new Uint8Array(decompressedSize);
   let filledBytes = 0;
   // The header of an LZ4 frame has a magic number, two bytes of flags, an optional content size, and a checksum.
-  for (let byteOffset = 7 + (frameFlags & CONTENT_SIZE ? 8 : 0); ; ) {
+  for (let byteOffset = 7 + (frameFlags & CONTENT_SIZE_FLAG ? 8 : 0); ; ) {
     const blockWord = dataView.getUint32(byteOffset, true);
     if (blockWord === 0) {
-      if (frameFlags & CONTENT_CHECKSUM) verifyChecksum(decompressedBytes, byteOffset + 4);
+      if (frameFlags & CONTENT_CHECKSUM_FLAG) verifyChecksum(decompressedBytes, byteOffset + 4);
       break;
     }
     const blockStart = byteOffset + 4;
@@ -107,8 +107,8 @@ export async function decompressLz4(bytes: Uint8Array, decompressedSize: number)
     } else {
       filledBytes = decompressBlock(bytes.subarray(blockStart, blockEnd), decompressedBytes, filledBytes);
     }
-    if (frameFlags & BLOCK_CHECKSUMS) verifyChecksum(bytes.subarray(blockStart, blockEnd), blockEnd);
-    byteOffset = blockEnd + (frameFlags & BLOCK_CHECKSUMS ? 4 : 0);
+    if (frameFlags & BLOCK_CHECKSUM_FLAG) verifyChecksum(bytes.subarray(blockStart, blockEnd), blockEnd);
+    byteOffset = blockEnd + (frameFlags & BLOCK_CHECKSUM_FLAG ? 4 : 0);
   }
   assertValidFrame(filledBytes === decompressedSize);
   return decompressedBytes;

@@ -25,7 +25,7 @@ export async function openMcap(sourceFile: SourceFile): Promise<MessageContainer
   };
   const indexReader = await McapIndexedReader.Initialize({ readable: readableFile }).catch(() => undefined);
   const mcap = new McapFile(sourceFile);
-  if (indexReader && isCompleteIndex(indexReader)) mcap.useIndex(indexReader);
+  if (indexReader && isCompleteIndex(indexReader)) mcap.applyIndex(indexReader);
   else await mcap.readMessages(() => true, ({ topicChannel }) => (topicChannel.messageCount += 1));
   return mcap;
 }
@@ -40,7 +40,7 @@ class McapFile extends MessageFile {
   readonly recordingFormat = 'mcap';
   #typesBySchemaId = new Map<number, string>();
 
-  useIndex({ chunkIndexes, schemasById, channelsById, statistics: fileStatistics }: McapIndexedReader): void {
+  applyIndex({ chunkIndexes, schemasById, channelsById, statistics: fileStatistics }: McapIndexedReader): void {
     this.indexedChunks = chunkIndexes.map(({ chunkStartOffset, messageIndexOffsets }) => ({ chunkStart: Number(chunkStartOffset), channelIds: [...messageIndexOffsets.keys()] }));
     for (const { id, name: schemaName } of schemasById.values()) this.#typesBySchemaId.set(id, schemaName);
     for (const topicChannel of channelsById.values()) this.#addChannel(topicChannel, Number(fileStatistics?.channelMessageCounts.get(topicChannel.id) ?? 0));

@@ -34,7 +34,7 @@ const isRowId = (serialType: number) => serialType === 0;
 /** Types of the first columns of tables: messages (id, topic, time, data), topics (id, name, type, serialization), and the list of all tables. */
 const TABLE_COLUMNS = { messages: [isRowId, isInteger, isInteger, isBlob], topics: [isRowId, isText, isText, isText], tables: [isText, isText, isText, isInteger] };
 
-const isRowOf = (tableName: keyof typeof TABLE_COLUMNS, { rowValues }: TableRow) => TABLE_COLUMNS[tableName].every((hasType, i) => hasType(rowValues[i]?.serialType));
+const isRowOfTable = (tableName: keyof typeof TABLE_COLUMNS, { rowValues }: TableRow) => TABLE_COLUMNS[tableName].every((hasType, i) => hasType(rowValues[i]?.serialType));
 
 export async function openSqlite(sourceFile: SourceFile): Promise<MessageContainer> {
   await loadZstd();
@@ -66,7 +66,7 @@ class Rosbag2 extends MessageFile {
     if (pageCount > 0 && pageCount * this.#pageSize !== this.sourceFile.size) this.truncationReason = 'the recorder did not close it';
     const countsById = new Map<number, number>();
     await this.#visitRows((tableRow) => {
-      if (!isRowOf('messages', tableRow)) return this.#addTopic(tableRow);
+      if (!isRowOfTable('messages', tableRow)) return this.#addTopic(tableRow);
       const topicId = integerOf(tableRow.localBytes, tableRow.rowValues[1]);
       countsById.set(topicId, (countsById.get(topicId) ?? 0) + 1);
       return undefined;
@@ -77,8 +77,8 @@ class Rosbag2 extends MessageFile {
 
   /** Stores the topic from a row of the table `topics`, or the table name from a row of the list of all tables. Ignores other rows. */
   async #addTopic(tableRow: TableRow): Promise<void> {
-    const isTable = isRowOf('tables', tableRow);
-    if (!isTable && !isRowOf('topics', tableRow)) return;
+    const isTable = isRowOfTable('tables', tableRow);
+    if (!isTable && !isRowOfTable('topics', tableRow)) return;
     const bytes = await this.#readWholeRow(tableRow);
     const [, topicName, messageType, encoding] = tableRow.rowValues.map(({ valueStart, valueEnd }) => new TextDecoder().decode(bytes.subarray(valueStart, valueEnd)));
     if (isTable) this.#tableNames.add(topicName);
@@ -89,7 +89,7 @@ class Rosbag2 extends MessageFile {
   async readMessages(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const wantedChannels = new Map([...this.channelsById].filter(([, topicChannel]) => isWanted(topicChannel)));
     await this.#visitRows((tableRow) => {
-      const topicChannel = isRowOf('messages', tableRow) ? wantedChannels.get(integerOf(tableRow.localBytes, tableRow.rowValues[1])) : undefined;
+      const topicChannel = isRowOfTable('messages', tableRow) ? wantedChannels.get(integerOf(tableRow.localBytes, tableRow.rowValues[1])) : undefined;
       if (!topicChannel) return undefined;
       const passMessage = (bytes: Uint8Array) => {
         const blockView = dataViewOf(bytes.subarray(tableRow.rowValues[3].valueStart, tableRow.rowValues[3].valueEnd));
@@ -106,7 +106,7 @@ class Rosbag2 extends MessageFile {
       try {
         const pageBytes = await this.#readPage(pageNumber);
         for (const cellOffset of cellOffsetsOf(pageBytes, pageNumber)) {
-          const pendingRow = onRow(this.#rowAt(pageBytes, cellOffset));
+          const pendingRow = onRow(this.#readRowAt(pageBytes, cellOffset));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
@@ -123,7 +123,7 @@ class Rosbag2 extends MessageFile {
     return pageBytes;
   }
 
-  #rowAt(pageBytes: Uint8Array, cellOffset: number): TableRow {
+  #readRowAt(pageBytes: Uint8Array, cellOffset: number): TableRow {
     const [payloadLength, afterLength] = varintAt(pageBytes, cellOffset);
     const [id, payloadStart] = varintAt(pageBytes, afterLength);
     const localEnd = payloadStart + this.#localByteCountOf(payloadLength);

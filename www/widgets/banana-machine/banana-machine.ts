@@ -259,9 +259,9 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return { ...super.takeSnapshot(), alphas: ((this.settings.isViewModelStale && this.simulation) || this.viewModel).alphasOfModels };
   }
 
-  withDerivedFields(currentState: StateValues, changes: StateValues) {
+  addDerivedFields(currentState: StateValues, changes: StateValues) {
     const alphas = checkObject('state.alphas', changes.alphas ?? {}, Object.keys(openingAlphas));
-    return { ...super.withDerivedFields(currentState, changes), alphas: { ...currentState.alphas, ...alphas } };
+    return { ...super.addDerivedFields(currentState, changes), alphas: { ...currentState.alphas, ...alphas } };
   }
 
   /** Position (in the view's world coordinates) at which the end of the commanded arc is drawn. */

@@ -54,8 +54,8 @@ export class MorphView extends PictureView {
     for (const endView of this.endViews) endView.setSize(width, height);
   }
 
-  allowZoomIn(minFill?: number) {
-    for (const endView of this.endViews) endView.allowZoomIn(minFill);
+  allowZoomIn(minFillFraction?: number) {
+    for (const endView of this.endViews) endView.allowZoomIn(minFillFraction);
   }
 
   clearTarget() {

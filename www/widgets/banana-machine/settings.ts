@@ -1,6 +1,6 @@
 /** Settings of the Banana Machine: their attributes, state fields and sliders. Also line styles, and the data that the figure shows. */
 
-import { withFieldRenamed } from '../../data/checks.ts';
+import { renameErrorField } from '../../data/checks.ts';
 import { SELECTION_FIELD, createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
@@ -72,7 +72,7 @@ export function viewModelOfSettings(motion: Motion, settings: Settings): ViewMod
     simulation = new motion.BananaMachine(settings);
     return viewModelOf(simulation);
   } catch (error) {
-    throw withFieldRenamed(error, 'state.pinned.', '');
+    throw renameErrorField(error, 'state.pinned.', '');
   } finally {
     simulation?.free();
   }

@@ -132,10 +132,10 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   // The simulation starts without robots. The first frame then appears quickly, and the user sees the robots appear.
   createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
 
-  withDerivedFields(currentState: StateValues, changedFields: StateValues) {
+  addDerivedFields(currentState: StateValues, changedFields: StateValues) {
     // If the new path has fewer steps than the number of the selected step, its last step is selected.
     const { steps = currentState.steps } = changedFields;
-    return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changedFields) };
+    return { step: Math.min(currentState.step, steps), ...super.addDerivedFields(currentState, changedFields) };
   }
 
   readViewModel = viewModelOf;

@@ -127,7 +127,7 @@ export class Cloud extends FigureController {
   }
 
   /** Returns the field `shown` (number of samples to show) for a change of settings that does not contain it. */
-  withDerivedFields(currentState: StateValues, { samples = currentState.samples }: StateValues): StateValues {
+  addDerivedFields(currentState: StateValues, { samples = currentState.samples }: StateValues): StateValues {
     return { shown: currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) };
   }
 

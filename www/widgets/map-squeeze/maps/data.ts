@@ -1,7 +1,7 @@
 /** Maps as plain data. States contain maps of the user in this form. */
 
 import { range } from 'd3-array';
-import { checkObject, createRefusalError, withFieldRenamed, checkNumber } from '../../../data/checks.ts';
+import { checkObject, createRefusalError, renameErrorField, checkNumber } from '../../../data/checks.ts';
 import { fromBase64, toBase64 } from '../../../data/packing.ts';
 import { limits } from '../../../../build/settings.js';
 import type { CellGrid } from '../../../scene/walls.ts';
@@ -44,7 +44,7 @@ export function applyMap(simulation: MapSqueeze, mapData: unknown) {
   const map = checkObject('map', mapData, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw createRefusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: map.walls }));
+    callWithRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: map.walls }));
     return;
   }
   const columns = checkNumber('map.columns', map.columns, 1, limits.cells, true);
@@ -54,17 +54,17 @@ export function applyMap(simulation: MapSqueeze, mapData: unknown) {
   const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : decodeBits('map.unknown', map.unknown, cellCount);
   const gridDescription = { resolution: map.resolution, origin: map.origin, negate: 1 };
   const pgmImage = pgmImageOf(columns, rows, occupiedBits, unknownBits);
-  withRenamedFields(GRID_KEYS, () => simulation.setGrid(gridDescription, pgmImage));
+  callWithRenamedFields(GRID_KEYS, () => simulation.setGrid(gridDescription, pgmImage));
 }
 
 /** Calls a function that passes a map to a simulation. Its error messages use the field names of the map instead of those of the simulation. */
-function withRenamedFields(keys: string[], setMap: () => void) {
+function callWithRenamedFields(keys: string[], setMap: () => void) {
   try {
     setMap();
   } catch (error) {
-    const renamedError = withFieldRenamed(error, 'occupied', 'image');
+    const renamedError = renameErrorField(error, 'occupied', 'image');
     const fieldKey = keys.find((key) => renamedError instanceof Error && renamedError.message.startsWith(key));
-    throw fieldKey === undefined ? renamedError : withFieldRenamed(renamedError, `map.${fieldKey}`, fieldKey);
+    throw fieldKey === undefined ? renamedError : renameErrorField(renamedError, `map.${fieldKey}`, fieldKey);
   }
 }
 

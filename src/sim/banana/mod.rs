@@ -349,12 +349,12 @@ impl BananaMachine {
         OdomDelta::from_poses(&START_POSE, &command_end(&self.settings.command))
     }
 
-    /// Counts the shown samples in each cell of a grid over a picture: see [`picture_pixels::count_samples_in_cells`].
+    /// Counts the shown samples in each cell of a grid over a picture: see [`picture::count_samples_in_cells`].
     pub fn density(&self, morph: f64, view_grid: &ViewGrid) -> Vec<u32> {
         picture::count_samples_in_cells(&self.cloud, morph, view_grid)
     }
 
-    /// Paints the density of the shown samples: see [`picture_pixels::paint_cell_counts`].
+    /// Paints the density of the shown samples: see [`picture::paint_cell_counts`].
     pub fn paint_picture(&mut self, morph: f64, view_grid: &ViewGrid, colour_ramp: &Ramp) -> &[[u8; 4]] {
         let cell_counts = self.density(morph, view_grid);
         self.picture_pixels =

@@ -3,7 +3,7 @@
 use super::{DURATION_RANGE, Declaration, QUANTITY_RANGE};
 use std::ops::RangeInclusive;
 
-/// Declaration of one of the three numbers of a [`Setting::Group`].
+/// Declaration of one of the three numbers of a [`Setting::Group`](super::Setting::Group).
 pub struct GroupMember {
     /// Key, description and unit of the number.
     pub declaration: Declaration,

@@ -190,7 +190,7 @@ impl MapSqueeze {
         }
     }
 
-    /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture_pixels::paint_cell_counts`].
+    /// Paints the density of the ends of the attempts shown, by [`Attempt::outcome_kind`]: see [`picture::paint_cell_counts`].
     pub fn paint_picture(
         &mut self,
         view_grid: &ViewGrid,

@@ -25,7 +25,7 @@ export async function raceContenders(contenders, totalSeconds) {
   let endTime = Infinity;
   for (let roundIndex = -WARM_UP_ROUNDS; roundIndex < MAX_ROUNDS && (roundIndex < MIN_ROUNDS || performance.now() < endTime); roundIndex++) {
     if (roundIndex === 0) endTime = performance.now() + 1000 * totalSeconds;
-    // Between two rounds the page handles pending events.
+    // The page handles pending events between rounds, so that they do not slow a round.
     await new Promise((resolve) => setTimeout(resolve));
     for (const [contenderName, handleEvent] of contenderList) {
       const [runStart, firstEvent] = [performance.now(), eventNumber];

@@ -26,7 +26,7 @@ impl Variance {
     }
 }
 
-/// Error of [`Variance::new`]: a negative number or NaN.
+/// Error of [`Variance::new`] for a number that is negative or NaN.
 #[derive(Clone, Copy, Debug, Error)]
 #[error("variance is {}; a number that is 0 or more is needed", format_number(*.0))]
 pub struct NegativeVariance(pub f64);

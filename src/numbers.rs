@@ -1,4 +1,4 @@
-//! Numbers in messages.
+//! Conversion of numbers to text, for messages.
 
 /// Returns a number as text, with an exponent if it is very large or very small. In WebAssembly, JavaScript formats the number, because
 /// Rust's code for printing doubles would take an eighth of the module.

@@ -2,14 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-/// Remaining bytes of a fuzz input. All bytes after the end of the input are 0.
+/// Remaining bytes of a fuzz input. After its end, bytes are read as 0.
 pub struct InputReader<'a>(pub &'a [u8]);
 
 /// Returns true for one in `selection_interval` inputs, selected by a hash of all bytes. Slow checks run for the selected inputs only.
 ///
 /// A single byte cannot select inputs, because most mutations of an input keep that byte.
 pub fn is_selected_by_hash(selection_interval: u64, input_bytes: &[u8]) -> bool {
-    // FNV-1a hash.
+    // Hash function FNV-1a.
     let mix_byte =
         |input_hash: u64, byte: &u8| (input_hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
     let input_hash = input_bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);

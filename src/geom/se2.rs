@@ -76,8 +76,8 @@ impl SE2 {
     }
 
     /// Returns the logarithm whose ω is within π of `approximate_turn` (rad). `approximate_turn` is the approximate turn of a body that may
-    /// have turned by more than half a circle. For `approximate_turn` between −π and π the result mostly equals [`SE2::log`]. Near a turn
-    /// of whole circles the logarithm grows without bound, unless the body is back at its start.
+    /// have turned by more than half a circle. If the heading of this pose differs from `approximate_turn` by less than π, the result
+    /// equals [`SE2::log`]. Near a turn of whole circles the logarithm grows without bound, unless the body is back at its start.
     pub fn log_near(&self, approximate_turn: f64) -> Vector3<f64> {
         self.log_with_turn(approximate_turn + wrap_angle(self.theta - approximate_turn))
     }

@@ -1,4 +1,4 @@
-//! The apartment of the Map Squeeze widget.
+//! Floor plan of an apartment, the initial map of the Map Squeeze widget.
 
 use crate::geom::segment::Segment;
 

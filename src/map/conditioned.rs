@@ -52,7 +52,7 @@ impl Sampler {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct MapConditioned<'a> {
-    /// Model without the map.
+    /// Velocity model from which motions are drawn.
     pub model: VelocityModel,
     /// Floor plan with which motions may collide.
     pub plan: &'a FloorPlan,
@@ -88,7 +88,7 @@ pub struct AcceptedMotion {
     pub cost: Cost,
 }
 
-/// Cost of rejection sampling.
+/// Cost of drawing motions until one is accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "camelCase"))]
 pub struct Cost {

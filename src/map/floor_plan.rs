@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 use thiserror::Error;
 use wide::f64x4;
 
-/// Walls without thickness inside a rectangle.
+/// Floor plan: walls without thickness inside a rectangle.
 #[derive(Clone, Debug)]
 pub struct FloorPlan {
     walls: Vec<Segment>,
@@ -49,7 +49,7 @@ pub enum FloorPlanError {
         /// Position (m) of the invalid end of the wall, or of its start if neither end is valid.
         invalid_end: [f64; 2],
     },
-    /// More than [`FloorPlan::MAX_WALLS`] walls.
+    /// The plan has more than [`FloorPlan::MAX_WALLS`] walls.
     #[error("walls has a length of {0} or more; allowed is at most {max}", max = FloorPlan::MAX_WALLS)]
     TooManyWalls(usize),
     /// The bounds of a grid exceed the range that is allowed for a floor plan.
@@ -127,7 +127,7 @@ impl FloorPlan {
         if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
         }
-        // Rounding can move a corner of a rotated grid slightly outside the grid's own bounds.
+        // Walls may end outside the bounds by a rounding error, as corners of a rotated grid do.
         let rounding_slack = rounding_bound(&bounds);
         let is_inside = |[x, y]: [f64; 2]| {
             (min_x - rounding_slack..=max_x + rounding_slack).contains(&x)

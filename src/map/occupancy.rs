@@ -74,7 +74,7 @@ pub struct Image<P = Pixel> {
 /// One pixel of a map image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
-    /// Mean of the colours.
+    /// Mean of red, green and blue, from 0 (black) to 1 (white).
     pub brightness: f32,
     /// Opacity from 0 (transparent) to 1.
     pub opacity: f32,

@@ -12,7 +12,7 @@ pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 const MAX_QUOTED_CHARACTERS: usize = 20;
 
 /// Reads the brightness values of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white. Fails
-/// with [`ImageError`] with the line of the header, or the line where plain pixels end.
+/// with [`ImageError`], which names the line and the field that is not allowed.
 pub fn read_pgm(file_bytes: &[u8]) -> Result<Image<f32>, ImageError> {
     let mut token_reader = TokenReader { file_bytes, byte_position: 0, line: 1 };
     let is_plain_pgm = match token_reader.next_token() {
@@ -57,7 +57,7 @@ struct TokenReader<'a> {
 }
 
 impl<'a> TokenReader<'a> {
-    /// Returns the next run of characters that are neither white space nor in a comment; empty at the end.
+    /// Returns the next token: characters that are neither white space nor in a comment. The token is empty at the end of the file.
     fn next_token(&mut self) -> &'a [u8] {
         let mut is_in_comment = false;
         while let Some(byte) = self.file_bytes.get(self.byte_position) {
@@ -95,7 +95,7 @@ impl<'a> TokenReader<'a> {
     }
 
     fn create_error(&self, field_name: &'static str, token: &[u8], allowed_text: String) -> ImageError {
-        // Bytes that are not printable ASCII may be pixels of another image format. A message cannot show them.
+        // Bytes that are not printable, such as pixels of another image format, are shown as replacement characters.
         let to_printable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };

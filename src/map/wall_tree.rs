@@ -1,11 +1,11 @@
-//! Search tree of the walls of a plan.
+//! Search tree of the walls of a floor plan, for collision tests.
 
 use crate::geom::segment::Segment;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 /// Binary tree of walls by position and direction. Each node has a capsule that contains its walls: all points within a radius of an axis.
-/// Searches among long parallel walls thus take as few comparisons as among short walls in one place.
+/// The capsule of long parallel walls is narrow, so that searches skip most of them.
 ///
 /// The tree is full and has no pointers: the children of node i are 2i and 2i + 1, and the root is 1.
 #[derive(Clone, Debug)]

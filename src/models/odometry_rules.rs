@@ -18,9 +18,9 @@ pub enum OdometryRule {
     /// [`OdometryRule::Nav2`], except that a reading of exactly a centimetre has no first rotation. Before release 2.0, α₄ applied to the
     /// whole turn rot1 + rot2 instead of to each rotation.
     Beluga,
-    /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same commit). The
-    /// bearing is exact. Noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a whole. The variance of the
-    /// turn does not allow for driving in reverse.
+    /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same commit). The noise
+    /// changes the distance, the position across it (the strafe, α₄ and α₅), and the whole turn, but not the bearing. The turn counts in
+    /// full, even if the robot drives in reverse.
     Omni,
 }
 
@@ -45,7 +45,7 @@ pub struct LegVariances {
 }
 
 impl OdometryRule {
-    /// All rules.
+    /// All four odometry rules.
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 
     /// Returns the rotation, translation and rotation into which the rule decomposes a reading. Together the three are the same motion to

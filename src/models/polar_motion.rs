@@ -47,11 +47,11 @@ impl PolarMotion {
     }
 
     /// Returns the motion of the odometry model for a reading. `commanded_turn` (rad) is the turn of the command that caused the reading.
-    pub fn of_odometry(velocity_model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
+    pub fn of_odometry(odometry_model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] =
-            velocity_model.variances(u).map(|variance| variance.0);
+            odometry_model.variances(u).map(|variance| variance.0);
         Self {
-            noise_kind: velocity_model.noise(),
+            noise_kind: odometry_model.noise(),
             is_arc: false,
             length: [u.trans, trans_variance.sqrt()],
             length_variance: trans_variance,

@@ -45,8 +45,8 @@ pub struct VelocityModel {
     pub noise: NoiseKind,
 }
 
-/// Maximum number of full turns in each direction that [`VelocityModel::pose_density`] adds up. If noise turns the robot more than 64 times
-/// in a step, its heading is uniform.
+/// Maximum number of full turns in each direction that [`VelocityModel::pose_density`] adds up. More turns would matter only if the
+/// standard deviation of the turn exceeded 44 rad.
 const MAX_WINDINGS: f64 = 64.0;
 
 impl VelocityModel {

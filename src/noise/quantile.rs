@@ -24,8 +24,8 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
     tail_quantile.copysign(q)
 }
 
-/// Number of SIMD vectors in a chunk. Numbers of a chunk that are in the tails are gathered into full vectors. 1024 numbers take 10 kB of
-/// stack. Smaller chunks would leave more incomplete vectors.
+/// Number of SIMD vectors in a chunk, from which the numbers in the tails are gathered into full vectors. Smaller chunks would leave more
+/// vectors incomplete. The 1024 numbers of a chunk take 10 kB of stack.
 pub(super) const CHUNK_VECTORS: usize = 256;
 
 /// Replaces each number q of a chunk by Φ⁻¹(½ + q), with the same bits as [`normal_quantile`]. One number in seven is in a tail, and every

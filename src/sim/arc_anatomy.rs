@@ -87,7 +87,7 @@ const MAX_LAST_TURNS: f64 = 27.0;
 pub const CONTOUR_LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
 
 js_structs! {
-    /// An arc with its circle.
+    /// Arc, with the radius and centre of its circle.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ArcWithCircle {
         /// Length, m; negative in reverse.
@@ -114,13 +114,13 @@ js_structs! {
         pub deviation: f64,
         /// Residual divided by σ. If σ is 0, the quotient is 0 for a residual of 0 up to rounding, and infinite otherwise.
         pub deviations: f64,
-        /// Probability density `prob` at the residual.
+        /// Value of the factor: the density `prob` at the residual.
         pub value: f64,
-        /// Value of the factor divided by its maximum (`prob` at residual 0), from 0 to 1.
+        /// Value of the factor relative to its maximum, which is `prob` at a residual of 0; from 0 to 1.
         pub share: f64,
     }
 
-    /// Arcs between the poses and likelihood of the final pose.
+    /// Arcs between the start and the final pose, and the likelihood of the final pose.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "AnatomyStats" {
         /// Arc of the command.

@@ -165,9 +165,9 @@ impl ExponentialContour {
 
     /// Returns twists on the silhouette of the 2σ ellipsoid, at a stage of the transition from positions to exponential coordinates.
     ///
-    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is perpendicular to the null vector k with
-    /// H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the great circle perpendicular to the principal direction of k
-    /// approximates the silhouette.
+    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, where G·Gᵀ is the covariance. H(ξ) is ∂position/∂ξ. On the silhouette u is
+    /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the great circle
+    /// perpendicular to the principal direction of k approximates the silhouette.
     fn silhouette_twists(&self, segment_count: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
         // Sum of k·kᵀ over the ends of the three axes of the ellipsoid. The null vector k is the cross product of the two rows of H·G.

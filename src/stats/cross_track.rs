@@ -90,7 +90,7 @@ pub(super) struct TrackMoments {
     pub products: [f64; 14],
     /// Mean of the squared distance from the origin.
     pub squared_extent: f64,
-    /// Mean of cos t.
+    /// Mean of cos t: the resultant length of the headings.
     pub resultant_length: f64,
 }
 

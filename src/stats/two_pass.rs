@@ -160,7 +160,7 @@ impl FirstPass {
         let (sin, cos) = libm::sincos(2.0 * half_heading);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
         let rotated_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
-        // Equal headings have spread 0, although their sines may be rounded.
+        // If all headings equal the reference heading, the turn is exactly 0, which rounded sines might not give.
         let turn_from_reference = if hh == 0.0 { 0.0 } else { libm::atan2(rotated_sums.0, rotated_sums.1) };
         let mean_turn = 2.0 * half_heading + turn_from_reference;
         let position_cov = [variance_of_sums(xx, x), cov_of(xy, x, y), variance_of_sums(yy, y)];

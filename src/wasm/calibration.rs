@@ -1,4 +1,4 @@
-//! Calibrations as plain JavaScript objects.
+//! Conversion of calibrations to plain JavaScript objects.
 
 use super::values::to_plain_js;
 use crate::calibrate::{

@@ -16,7 +16,7 @@ use tsify::Ts;
 use wasm_bindgen::prelude::*;
 
 js_structs! {
-    /// Map of the simulation, in m.
+    /// Floor plan of the simulation; lengths in m.
     pub struct Plan {
         /// Smallest x and y, and largest x and y, of the map.
         pub bounds: [f64; 4] as "Float64Array",
@@ -24,7 +24,7 @@ js_structs! {
         pub walls: Vec<[f64; 4]> as "Float64Array",
     }
 
-    /// Square cells, row by row from the bottom.
+    /// Occupancy grid of a map. Cells are listed row by row from the bottom.
     pub struct Grid {
         pub columns: usize,
         pub rows: usize,

@@ -1,4 +1,4 @@
-//! Statistics that the Banana Machine shows of its cloud.
+//! Statistics of the cloud of the Banana Machine.
 
 use super::{BananaMachine, OUTLINE_SEGMENTS};
 use crate::geom::arc::arc_with_turn_near;

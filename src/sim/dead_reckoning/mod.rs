@@ -324,7 +324,7 @@ const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 /// Standard deviation, relative to the length of the path or in radians, below which a measured spread counts as rounding error.
 const NEGLIGIBLE_STD: f64 = 1e-12;
 
-/// Comparison of a recursion with the robots.
+/// Comparison of the variances that a recursion predicts with those of the robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecursionComparison {
     /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if either variance is undefined.
@@ -416,7 +416,7 @@ fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], component:
 const LOG10_DURATIONS_IN_TENTHS: [i32; 2] = [-10, 10];
 
 js_structs! {
-    /// Variances of one straight command by its duration.
+    /// Variances of the end of a straight drive, as functions of its duration.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StraightGrowth {
         /// Durations Δt (s) in equal logarithmic steps.

@@ -13,8 +13,8 @@ use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use std::ops::RangeInclusive;
 
-/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). The range is far larger than any robot needs. Products of squares of its
-/// numbers are finite.
+/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs, and products of squares of its
+/// numbers do not overflow.
 pub const QUANTITY_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 /// Range of the noise parameters α, chosen for the same reasons as [`QUANTITY_RANGE`].
 pub const ALPHA_RANGE: RangeInclusive<f64> = 0.0..=1e6;
@@ -67,13 +67,13 @@ impl Declaration {
 
 /// Reference to the value of a setting, with the range of its numbers.
 pub enum Setting<'a> {
-    /// Number.
+    /// Number with its allowed range.
     Number(&'a mut f64, RangeInclusive<f64>),
-    /// Integer.
+    /// Integer with its allowed range.
     Integer(&'a mut dyn IntegerSetting, RangeInclusive<u64>),
-    /// Integer that may be missing (null).
+    /// Integer with its allowed range, or null (None).
     OptionalInteger(&'a mut Option<usize>, RangeInclusive<u64>),
-    /// Boolean.
+    /// Boolean: true or false.
     Boolean(&'a mut bool),
     /// Value of an enum, by its keyword.
     Keyword(&'a mut dyn KeywordSetting),
@@ -261,7 +261,7 @@ macro_rules! integers {
 }
 integers!(u32, u64, usize);
 
-/// Visitor that is called for each setting.
+/// Function that is called with each setting and its declaration.
 pub type SettingVisitor<'a> = dyn FnMut(&'static Declaration, Setting) + 'a;
 
 /// Settings of a widget that can be visited one by one. `settings!` implements it.
@@ -347,7 +347,7 @@ macro_rules! settings {
         }
 
         impl $name {
-            /// Settings that the widget opens with.
+            /// Settings with which the widget opens.
             pub const DEFAULT: Self = Self { $($($field: $default,)?)+ $($($kept: $kept_default,)+)? };
         }
 

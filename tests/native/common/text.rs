@@ -83,7 +83,7 @@ fn parse_numbers(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<Pr
         .map(|sentence_part| {
             let is_in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
             let mut number_end = remaining_text.find(|c| !is_in_number(c)).unwrap_or(remaining_text.len());
-            // Documents separate thousands by a plain space.
+            // In documents, a plain space may separate thousands.
             if remaining_text[number_end..].starts_with(' ')
                 && remaining_text[number_end + 1..].split(' ').next().is_some_and(is_group_of_thousands)
             {

@@ -1,4 +1,4 @@
-//! Angles and SE(2).
+//! Laws of angles and of SE(2).
 //!
 //! A law may be off by a few units in the last place for each map that it composes. The tolerance is 32 units, as in `group_laws.rs`,
 //! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.

@@ -1,4 +1,4 @@
-//! Map files in PGM format.
+//! Law of the reader of map files in PGM format.
 
 use super::doubles::new_proptest_config;
 use motion::map::read_pgm;

@@ -1,4 +1,4 @@
-//! Noises, and probabilities of poses under the models.
+//! Laws of noises, and of probabilities of poses under the models.
 
 use super::doubles::{any_double, doubles_up_to, finite_doubles, new_proptest_config};
 use motion::geom::se2::SE2;

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 const U: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
-/// Command of one step. Tests compound twenty steps.
+/// Command of one of the twenty steps that the tests compound.
 const COMMAND_OF_STEP: VelocityCmd = VelocityCmd { dt: 0.2, ..U };
 const FULL_RANK_ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]);
 
@@ -50,7 +50,7 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
             assert!((log_prob - expected_log_prob).abs() < 1e-8, "{log_prob}, not {expected_log_prob}");
         }
     }
-    // Wheels have no lateral noise. The density is then concentrated on a thin sheet.
+    // Without lateral noise of the wheels, the density is concentrated on a thin sheet.
     let tangent_model = TangentNoiseModel::from_velocity(
         &new_velocity_model(VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
         &U,

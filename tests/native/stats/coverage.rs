@@ -1,4 +1,4 @@
-//! Coverage of the reported standard errors and intervals over thousands of seeds.
+//! Coverage of the reported standard errors and intervals: fractions of thousands of seeds with which they contain the exact value.
 
 use crate::common::text::PlainText;
 use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};

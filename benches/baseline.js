@@ -1,5 +1,5 @@
-// Banana Machine in plain JavaScript: the baseline of the benchmark. Typed arrays, common random numbers and two passes over the cloud, as
-// in the core. It leaves out the contours and the standard error of the skew, which the core computes.
+// Banana Machine in plain JavaScript, the baseline of the benchmark. Like the core it uses typed arrays, common random numbers and two
+// passes over the cloud. It computes neither the contours nor the standard error of the skew.
 
 /**
  * @typedef {import('./scene.js').Command} Command

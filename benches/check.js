@@ -1,4 +1,4 @@
-// Comparison of the baseline with the core on the core's own samples.
+// Comparison of the baseline with the core, for the same samples.
 
 import { Baseline } from './baseline.js';
 import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';

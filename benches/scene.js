@@ -1,4 +1,4 @@
-// Model, slider and picture of the benchmark of refreshes. The core and the baseline share them.
+// Noise parameters, commands and view of the refresh benchmark, which are the same for the core and the baseline.
 
 /** @typedef {import('../www/types.d.ts').BananaMachine} BananaMachine */
 /** @typedef {import('../www/types.d.ts').Command} Command */

@@ -23,7 +23,7 @@ export async function measureStarts(browser, pageUrl, loadCount) {
     const browserContext = await browser.newContext({ viewport: { width: 1280, height: 900 } });
     const page = await browserContext.newPage();
     await page.addInitScript(markStages);
-    // Reduced motion is set, because an animated introduction of single robots would delay the cloud.
+    // The introduction, an animation of single robots that would delay the cloud, counts as already shown in this session.
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
     await page.goto(pageUrl);
     await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);

@@ -1,5 +1,3 @@
-//! JavaScript interface of `ArcAnatomy`.
-
 use crate::support::{JsObject, get};
 use wasm_bindgen_test::wasm_bindgen_test;
 

@@ -60,7 +60,7 @@ fn alphas_of_a_log_are_found_with_their_intervals() {
     let intervals: Vec<(f64, f64)> = js_logs.get("it.found.intervals");
     let alphas: Vec<f64> = js_logs.get("it.found.alphas");
     for ((alpha, (low, high)), truth) in alphas.iter().zip(&intervals).zip(ALPHAS) {
-        // If the intervals are doubled in width, one in ten thousand logs has a true value outside of its interval.
+        // The 95 % intervals are doubled in width, so that only one log in ten thousand has a true value outside of an interval.
         assert!(low < alpha && alpha < high, "{low} {alpha} {high}");
         assert!(2.0 * low - alpha < truth && truth < 2.0 * high - alpha, "{low} {truth} {high}");
     }

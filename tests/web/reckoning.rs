@@ -1,5 +1,3 @@
-//! JavaScript interface of `DeadReckoning`.
-
 use crate::support::JsObject;
 use wasm_bindgen_test::wasm_bindgen_test;
 

@@ -1,4 +1,4 @@
-//! Models that a reader of the chapter may write. They implement the trait as the chapter prints it: two methods and a type.
+//! Models as readers of the chapter may write them, which implement the trait as the chapter prints it: two methods and a type.
 
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::{
@@ -80,7 +80,7 @@ fn a_readers_velocity_model_equals_the_crates_model() {
     for _ in 0..1000 {
         let (readers_pose, expected_pose) =
             (readers_model.sample(&COMMAND, &x, &mut rng1), crate_model.sample(&COMMAND, &x, &mut crate_rng));
-        // A small ω̂ loses digits, because the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
+        // If ω̂ is small, the position loses digits, because the radius v̂/ω̂ multiplies the rounding errors of two sines, 2e-16 each.
         let position_tolerance = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
         assert!(
             (readers_pose.x() - expected_pose.x()).abs() < position_tolerance

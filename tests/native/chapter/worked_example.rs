@@ -1,8 +1,8 @@
 //! All numbers of the chapter's worked example: v = 1, ω = 0.5, Δt = 1, α₁₋₄ = 0.02, α₅,₆ = 0, from the origin.
 //!
-//! The tests use `SmallRng`, as the chapter's listing does. Printed numbers are checked to half a unit of their last
-//! digit. Measured numbers are checked to 4.5 standard errors, which are estimated from 100 batches of the sample. The
-//! chapter's measurements come from another sample of the same size, which multiplies the tolerance by √2.
+//! The tests use `SmallRng`, as the chapter's listing does. Printed numbers are checked to half a unit of their last digit. Measured
+//! numbers are checked to 4.5 standard errors, which are estimated from 100 batches of the sample. The tolerance is √2 times larger,
+//! because the chapter's measurements have their own errors.
 
 use crate::common::{MAX_STANDARD_ERRORS, estimate_with_standard_error};
 use approx::assert_relative_eq;
@@ -97,7 +97,6 @@ fn exact_moments_equal_the_printed_table() {
     assert_equals_printed(opening_moments.cross_track_skew, -0.43093, 5, "skew of the opening command");
 }
 
-/// Compares estimates from 200 000 samples with the numbers that the chapter prints for its samples, and with exact values.
 #[test]
 fn measured_moments_agree_with_the_printed_table() {
     let pose_cloud = sample_cloud(&MODEL);
@@ -139,8 +138,8 @@ fn measured_moments_agree_with_the_printed_table() {
     );
 }
 
-/// The variance of the last turn γ̂ belongs to the control covariance R_u. It makes the heading variance correct, but adds a small variance
-/// to the lateral coordinate.
+/// The predicted heading variance includes the last turn γ̂. The prediction omits the small variance that the last turn adds to the lateral
+/// exponential coordinate.
 #[test]
 fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     let velocity_model =

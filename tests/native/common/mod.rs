@@ -15,7 +15,7 @@ pub const NOISE_KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangula
 
 pub const SAMPLE_COUNT: usize = 100_000;
 
-/// Maximum deviation of an estimate in standard errors. With random seeds one comparison in 150 000 would fail.
+/// Maximum deviation of an estimate, in standard errors. It is so large that only one comparison in 150 000 would fail by chance.
 pub const MAX_STANDARD_ERRORS: f64 = 4.5;
 
 pub fn seeded_rng(seed: u64) -> Xoshiro256PlusPlus {
@@ -71,7 +71,7 @@ pub fn is_point_inside(closed_outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     winding_count != 0
 }
 
-/// Table of reference values in tests/reference, written by generate.py.
+/// Table of reference values from a file in tests/reference, which generate.py writes.
 pub struct ReferenceTable {
     column_names: Vec<&'static str>,
     csv_rows: Vec<Vec<&'static str>>,
@@ -152,8 +152,8 @@ pub fn unit_cdf(noise_kind: NoiseKind, z: f64) -> f64 {
     }
 }
 
-/// Returns the χ² value that `cell_count` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of freedom goes
-/// to the fixed total.
+/// Returns the χ² value that `cell_count` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). There is one degree of
+/// freedom less than cells, because the total is fixed.
 pub fn chi_square_limit(cell_count: usize) -> f64 {
     let k = (cell_count - 1) as f64;
     k * (1.0 - 2.0 / (9.0 * k) + 3.719 * (2.0 / (9.0 * k)).sqrt()).powi(3)

@@ -1,4 +1,4 @@
-//! Numbers printed in the text of a page or a document, which tests compare with computed numbers.
+//! Search for printed numbers in the text of a page or a document, for comparison with computed numbers.
 
 /// Text of a page or a document, joined to one line.
 pub struct PlainText(String);
@@ -6,7 +6,7 @@ pub struct PlainText(String);
 #[derive(Clone, Copy, Debug)]
 pub struct PrintedNumber {
     pub value: f64,
-    /// Half a unit of the last printed digit.
+    /// Rounding error of the printed number: half a unit of its last digit.
     pub rounding_error: f64,
 }
 

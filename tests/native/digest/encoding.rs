@@ -94,7 +94,7 @@ impl HashedPart {
     pub fn new(part_name: &'static str, part_results: impl Encode) -> Self {
         let mut encoded_bytes = Vec::new();
         part_results.encode(&mut encoded_bytes);
-        // A hash of 64 bits is long enough. One change in 10¹⁹ would go unnoticed.
+        // The first 64 bits of the hash are enough: only one change in 10¹⁹ would go unnoticed.
         Self(part_name, format_hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
     }
 }

@@ -1,4 +1,4 @@
-//! Digested results of each simulation, in the order of digest.js.
+//! Results of each simulation that the digest contains, in the order of digest.js.
 
 use super::configuration::{Configuration, new_test_ramp, to_number, to_numbers};
 use super::encoding::HashedPart;

@@ -33,7 +33,6 @@ fn presets_equal_those_printed_in_the_document() {
     }
 }
 
-/// The fractions of robots may differ by 4.5 standard errors.
 #[test]
 fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOT_COUNT: usize = 300_000;
@@ -95,7 +94,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     );
 }
 
-/// With 300,000 robots, the densities in the areas that only one of the outlines encloses have relative errors of 2 %.
+/// Densities in the areas that only one of the two outlines encloses have relative errors of 2 % with these 300,000 robots.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
     read_page_text().assert_contains(

@@ -75,7 +75,7 @@ fn printed_variance_errors_of_the_recursion_equal_those_of_the_simulation() {
     }
 }
 
-/// A ratio to the variance of n robots has the standard error √(2/n), or more if the tails are heavy.
+/// The ratio to a variance measured with n robots has the standard error √(2/n), or more if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
     let exercises_text = read_exercises();

@@ -75,7 +75,7 @@ fn most_accepted_samples_lie_behind_the_wall() {
         let simulation = new_simulation(new_settings(WALL_PRESET, map_sampler, 0.0));
         let accepted_ys: Vec<f64> =
             simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
-        // The wall ahead is at y = 3.8. Robots that turn aside also end before this wall.
+        // The wall ahead is at y = 3.8. Robots that turn aside count as in front of it.
         accepted_ys.iter().filter(|y| **y > 3.8).count() as f64 / accepted_ys.len() as f64
     };
     assert!(fraction_behind_wall(Sampler::Endpoint) > 0.8);

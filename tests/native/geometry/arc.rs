@@ -167,8 +167,8 @@ fn the_distance_of_arc_and_wall_equals_the_bisected_distance() {
     );
 }
 
-/// Points of a drawn arc are 1/50 rad apart. A piece of length s and turn φ deviates by s·φ/8 from its chord. That is 0.05 mm for an
-/// arc of a metre that turns by a radian. Beyond two turns the circle repeats itself, and its chords may be longer.
+/// Points of a drawn arc are 1/50 rad apart. A piece of length s and turn φ deviates by s·φ/8 from its chord. That is 0.05 mm for an arc of
+/// a metre that turns by a radian. Beyond two turns the circle repeats itself, so that its chords may be longer.
 #[test]
 fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
     for (arc_length, arc_turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {

@@ -2,7 +2,7 @@
 
 use motion::geom::arc_forms::{DoubleDouble, form_errors};
 
-/// Returns the rows of the reference: an angle, and the high and low parts of its sine, cosine and sinc.
+/// Returns the rows of the reference table: an angle, and the high and low parts of its sine, cosine and sinc.
 fn read_reference_rows() -> impl Iterator<Item = [f64; 7]> {
     include_str!("../../reference/double_double.csv")
         .lines()
@@ -45,7 +45,7 @@ fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
         if (1e-9..1e-2).contains(omega) {
             assert!((errors.straight[i] / straight_line_error - 1.0).abs() < 1e-3, "{omega}: {errors:?}");
         }
-        // The error of the form with the arc's radius is about ε/ω.
+        // The formula with the radius of the arc has an error of about ε/ω.
         let ratio_of_arc_errors = errors.arc[i] / (f64::EPSILON / omega);
         if (1e-11..0.1).contains(omega) {
             assert!((0.05..3.0).contains(&ratio_of_arc_errors), "{omega} {ratio_of_arc_errors}");

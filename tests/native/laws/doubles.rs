@@ -1,4 +1,4 @@
-//! Strategies for doubles, poses and twists of any size, and the configuration of a law.
+//! Proptest strategies for doubles, poses and twists of any size, and the configuration of property tests.
 
 use motion::geom::se2::SE2;
 use nalgebra::Vector3;

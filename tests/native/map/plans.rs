@@ -28,7 +28,7 @@ fn sample_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
     Arc { start: SE2::new(start_position[0], start_position[1], sample_uniform(rng, -PI, PI)), length, turn }
 }
 
-/// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
+/// Returns walls whose ends differ by at most `max_extent` m in x and in y. A third of the walls are parallel to an axis.
 fn sample_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [min_x, min_y, max_x, max_y] = bounds;
     (0..wall_count)

@@ -13,7 +13,7 @@ struct PngFormat {
     transparency: Option<Vec<u8>>,
 }
 
-/// Returns the file of an image. The samples of a pixel are adjacent.
+/// Returns the PNG file of an image, from its samples pixel by pixel.
 fn encode_png(png_format: &PngFormat, image_width: u32, channel_values: &[u16]) -> Vec<u8> {
     let row_length = image_width as usize * png_format.color_type.samples();
     let mut packed_rows = Vec::new();

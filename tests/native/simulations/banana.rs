@@ -60,7 +60,7 @@ fn format_results(simulation: &BananaMachine) -> String {
     )
 }
 
-/// Accuracy of a pose after a metre or two. The factors of its coordinates have the accuracy of a sine or cosine.
+/// Accuracy of a pose after a metre or two, whose coordinates are products with a sine or cosine.
 const POSE_TOLERANCE: f64 = 4.0 * MAX_SIN_COS_ERROR;
 
 #[test]
@@ -239,7 +239,7 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
             ..settings_of_preset("gentle")
         })
     };
-    // The heading's standard deviation is 3·√(0.02·(1 + ω²)): 0.6 rad for ω = 0.9, 0.9 rad for ω = ±2.
+    // The turn 3ω has the standard deviation 3·√(0.02·(1 + ω²)): 2.7 ± 0.6 rad is far from a full circle, 6 ± 0.9 rad is near it.
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let simulation = simulate_turn(omega);
         assert_eq!(simulation.is_exponential_defined(), is_defined, "ω = {omega}");

@@ -75,7 +75,6 @@ fn lanes_agree_with_poses_composed_one_by_one() {
     }
 }
 
-/// The expected means, covariances and relative errors are sums over the paths of all robots.
 #[test]
 fn moments_are_those_of_the_cloud() {
     for (i, settings) in list_challenging_settings().into_iter().enumerate() {

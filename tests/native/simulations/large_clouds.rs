@@ -117,7 +117,6 @@ fn assert_stats_are_exact(simulation: &BananaMachine) {
         |pose: &SE2| pose.log_near(simulation.settings().command.omega * simulation.settings().command.dt);
     let iter_robot_twists = || poses.iter().map(pose_twist);
     let twist_mean = Vector3::from_fn(|i, _| exact_mean(iter_robot_twists().map(|pose_twist| pose_twist[i])));
-    // Exponential coordinates are undefined if robots turn by a full circle.
     for i in if simulation.is_exponential_defined() { 0..3 } else { 0..0 } {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
         for j in 0..3 {

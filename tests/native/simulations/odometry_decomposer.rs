@@ -78,7 +78,6 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
             assert!((robot_pose_at(1.5).x() - 0.5 * (start_pose.x() + final_pose.x())).abs() < 1e-15);
         }
     }
-    // Without noise the leg poses of every outcome equal those of the reading.
     let noise_free_simulation = new_simulation(Settings { alphas: [0.0; 5], ..Settings::default() });
     assert_eq!(noise_free_simulation.sample_leg_poses(7), [noise_free_simulation.leg_poses(); 7]);
     assert_eq!(noise_free_simulation.sample_leg_poses(usize::MAX).len(), 500);

@@ -1,4 +1,4 @@
-//! Likelihood gains and area ratios, compared with their definitions and with reference values. Degenerate clouds have neither.
+//! Likelihood gains and area ratios, compared with their definitions and with reference values. For degenerate clouds they are undefined.
 
 use crate::common::{NOISE_KINDS, ReferenceTable, mean_of, variance_of};
 use crate::simulations::banana::check_in_varied_clouds;

@@ -19,8 +19,8 @@ const COMMAND: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
 
 const TWO_SIGMA_FRACTION: f64 = 0.864_664_716_763_387_3;
 
-/// If ξ is a Gaussian of rank 2, its 2σ contour contains the same fraction of robots after mapping by exp. The outline separates inside from
-/// outside.
+/// If ξ is a Gaussian of rank 2, its 2σ contour contains 86.5 % of the robots, also after mapping to the plane by exp. The outline
+/// separates the robots inside from those outside.
 #[test]
 fn the_exponential_contour_covers_the_fraction_of_two_sigma() {
     let start_pose = SE2::new(2.0, -1.0, 0.8);

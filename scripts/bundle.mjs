@@ -21,7 +21,7 @@ const BYTES_MODULE_NAME = 'motion.bytes';
 
 /**
  * Placeholder for the name of the chunk that contains `MODULE_SOURCES.external`. The placeholder has the same length as the name, so that
- * source maps stay valid. If its own address lacks that name, a bundler has moved the chunk to another file.
+ * source maps stay valid. If the address of the chunk lacks that name, a bundler has moved the chunk.
  */
 const CHUNK_PLACEHOLDER = 'chunk-________.js';
 

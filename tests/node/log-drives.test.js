@@ -188,7 +188,7 @@ test('a frozen reference is interrupted only while the odometry moves', async ()
   assert.deepEqual([motionData.t.length, [...motionData.breaks], logSummary.used, logSummary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   assert.equal(await catchRefusalSentence(readReference(movingOdometryTable, straightTableOf(() => 7))), 'odom.csv: its pose never changes; give the odometry of a robot that drives.');
-  // A constant reference pose counts as lost if it lasts more than two seconds, and the odometry moves by more than five centimetres during this time.
+  // If the reference stays constant, it counts as lost if the odometry moves by more than five centimetres between the first and last second of that time.
   const countDroppedDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
     const odometryXOfRow = (/** @type {number} */ i) => (pauseSpeed * i) / 20;
     return (await readReference(straightTableOf((i) => 1.01 * odometryXOfRow(i >= 200 && i <= 200 + 20 * pauseSeconds ? 200 : i)), straightTableOf(odometryXOfRow))).logSummary.dropped.held?.count;

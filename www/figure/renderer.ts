@@ -95,7 +95,7 @@ export class FigureRenderer extends FigureController {
   /** Checks the position of the figure at once: the observers would report it a frame later. */
   #checkPosition() {
     const { top: topEdge, bottom: bottomEdge } = this.figure.getBoundingClientRect();
-    // An element out of the viewport does not start. Neither does a removed element, all of whose edges are 0.
+    // An element out of the viewport is not started here. Neither is a removed element, all of whose edges are 0.
     if (topEdge >= innerHeight || bottomEdge <= 0) return;
     this.#setVisible(true);
     this.#setNear(true);

@@ -20,7 +20,7 @@ export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
 });
 
 /** Returns the command at an event of the slider. The slider moves up and down and never rests. @param {number} eventNumber @returns {Command} */
-export function commandAt(eventNumber) {
+export function commandOfEvent(eventNumber) {
   return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (eventNumber % 100)), dt: 1 };
 }
 
@@ -37,6 +37,6 @@ export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columnCo
 
 /** Returns everything that a page needs after an event, except for the pixels of the picture. @param {BananaMachine} simulation @param {number} eventNumber */
 export function readStatsAndContours(simulation, eventNumber) {
-  simulation.configure({ command: commandAt(eventNumber) });
+  simulation.configure({ command: commandOfEvent(eventNumber) });
   return { stats: simulation.stats, contours: simulation.contours };
 }

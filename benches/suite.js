@@ -1,8 +1,8 @@
 // Measurements that run both in Node and in a page.
 
 import { Baseline } from './baseline.js';
-import { differencesFromCore, unitNoiseOf } from './check.js';
-import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';
+import { findDifferencesFromCore, unitNoiseOf } from './check.js';
+import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandOfEvent, readDensityPixels, readStatsAndContours } from './scene.js';
 import { raceContenders } from './timing.js';
 
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
@@ -23,18 +23,18 @@ import { raceContenders } from './timing.js';
  * @returns {Promise<Timings>}
  */
 export async function measureCore(core, { quick: isQuickRun, log: logCsv }) {
-  const differingStatistics = differencesFromCore(core, 4000);
+  const differingStatistics = findDifferencesFromCore(core, 4000);
   if (differingStatistics.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differingStatistics.join('\n')}`);
   const secondsPerRace = isQuickRun ? 0.2 : 2;
   const refreshTimings = [];
   for (const sampleCount of [1e4, 1e5, 1e6]) {
-    const simulation = new core.BananaMachine({ alphas: ALPHAS, samples: sampleCount, seed: 1, command: commandAt(0) });
+    const simulation = new core.BananaMachine({ alphas: ALPHAS, samples: sampleCount, seed: 1, command: commandOfEvent(0) });
     const baselineSimulation = new Baseline(ALPHAS, unitNoiseOf(simulation));
     const refreshCore = (/** @type {number} */ eventNumber) => {
       readStatsAndContours(simulation, eventNumber);
       readDensityPixels(simulation);
     };
-    const refreshBaseline = (/** @type {number} */ eventNumber) => void baselineSimulation.refresh(commandAt(eventNumber), PICTURE_VIEW, COLOUR_RAMP);
+    const refreshBaseline = (/** @type {number} */ eventNumber) => void baselineSimulation.refresh(commandOfEvent(eventNumber), PICTURE_VIEW, COLOUR_RAMP);
     refreshTimings.push({ samples: sampleCount, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, secondsPerRace)) });
     simulation.free();
   }

@@ -2,7 +2,7 @@
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { UserError, absolutePath, findProgram, runOrThrow, printStep, runProgram } from './process.mjs';
+import { UserError, absolutePathOf, findProgram, runOrThrow, printStep, runProgram } from './process.mjs';
 import { CACHE_DIRECTORY, installByApt } from './toolchain.mjs';
 
 /** Names of the programs of the full Chromium. Only the full Chromium has a back-forward cache. */
@@ -95,7 +95,7 @@ async function installChromeForTesting() {
   if (chromePath === undefined) return undefined;
   if ((await readVersion(chromePath)) === undefined) {
     // Installs the system libraries that Chrome needs, because a downloaded Chrome does not include them.
-    const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
+    const installLibraries = [absolutePathOf('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
     await runOrThrow('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { timeLimitSeconds: 600 });
   }
   const driverPath = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chromePath)}`);

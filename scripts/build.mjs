@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { ensureBindProgram } from './bindgen.mjs';
 import { EXAMPLE_LOG_PATHS, writeExampleLog } from './example-log.mjs';
 import { listCrates } from './licences.mjs';
-import { absolutePath, filesOf, runOrThrow, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
+import { absolutePathOf, filesOf, runOrThrow, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'pages', 'python', 'react', 'tables', 'types'].map((scriptName) => `scripts/${scriptName}.mjs`);
@@ -56,7 +56,7 @@ export async function buildProject({ isLocal = false } = {}) {
 /** Returns a hash of the names and contents of files. @param {string[]} hashedPaths paths of files and directories @param {string} [hashSeed] */
 function hashOfFiles(hashedPaths, hashSeed = '') {
   const fileHash = createHash('sha256').update(hashSeed);
-  for (const hashedPath of hashedPaths.flatMap(filesOf)) fileHash.update(`\0${hashedPath}\0`).update(readFileSync(absolutePath(hashedPath)));
+  for (const hashedPath of hashedPaths.flatMap(filesOf)) fileHash.update(`\0${hashedPath}\0`).update(readFileSync(absolutePathOf(hashedPath)));
   return fileHash.digest('hex');
 }
 
@@ -70,10 +70,10 @@ function hashOfFiles(hashedPaths, hashSeed = '') {
  */
 async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) {
   if (isUpToDate(stampName, sourceHash, productPaths)) return;
-  mkdirSync(absolutePath('build'), { recursive: true });
-  rmSync(absolutePath(stampName), { force: true });
+  mkdirSync(absolutePathOf('build'), { recursive: true });
+  rmSync(absolutePathOf(stampName), { force: true });
   await buildProducts();
-  writeFileSync(absolutePath(stampName), sourceHash);
+  writeFileSync(absolutePathOf(stampName), sourceHash);
 }
 
 /**
@@ -81,7 +81,7 @@ async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) 
  * @param {string} stampPath @param {string} sourceHash @param {string[]} productPaths
  */
 function isUpToDate(stampPath, sourceHash, productPaths) {
-  return [stampPath, ...productPaths].every((filePath) => existsSync(absolutePath(filePath))) && readFileSync(absolutePath(stampPath), 'utf8') === sourceHash;
+  return [stampPath, ...productPaths].every((filePath) => existsSync(absolutePathOf(filePath))) && readFileSync(absolutePathOf(stampPath), 'utf8') === sourceHash;
 }
 
 /**
@@ -99,14 +99,14 @@ async function buildCores(coreNames, isLocal) {
   for (const coreName of coreNames) {
     // Cargo writes all cores to one path. The JavaScript glue of a core is therefore generated before the next core is compiled.
     const [modulePath, bindProgramPath] = await settleAll([compileCore(rustTools, coreName, isLocal), bindProgramPromise, packagesPromise]);
-    await runOrThrow('wasm-bindgen failed: see above.', bindProgramPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
+    await runOrThrow('wasm-bindgen failed: see above.', bindProgramPath, [modulePath, absolutePathOf(`build/bound/${coreName}`)]);
     completionPromises.push(completeCore(coreName, isLocal));
   }
   await settleAll(completionPromises);
   if (!coreNames.includes('motion')) return;
   await writeSettings();
-  copyFileSync(absolutePath('build/bound/motion/motion.d.ts'), absolutePath('build/core.d.ts'));
-  writeFileSync(absolutePath('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
+  copyFileSync(absolutePathOf('build/bound/motion/motion.d.ts'), absolutePathOf('build/core.d.ts'));
+  writeFileSync(absolutePathOf('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
 }
 
 /**
@@ -133,7 +133,7 @@ async function compileCore(rustTools, coreName, isLocal) {
   const cargoMetadata = JSON.parse(await readCargoOutput('metadata', '--format-version', '1'));
   if (coreName === 'motion') {
     const crateTree = await readCargoOutput('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
-    writeFileSync(absolutePath('build/crates.json'), JSON.stringify(listCrates(crateTree, cargoMetadata)));
+    writeFileSync(absolutePathOf('build/crates.json'), JSON.stringify(listCrates(crateTree, cargoMetadata)));
   }
   return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
 }
@@ -148,7 +148,7 @@ async function writeSettings() {
   const presetsByTag = Object.fromEntries(widgetDeclarations.map((/** @type {any[]} */ [widgetTag, , presetsOfWidget]) => [widgetTag, presetsOfWidget.map((/** @type {any[]} */ [presetName, settings]) => ({ name: presetName, settings }))]));
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
   const constantLines = Object.entries({ settings, presets: presetsByTag, ...otherConstants }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
-  writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
+  writeFileSync(absolutePathOf('build/settings.js'), typeLines + constantLines.join('\n'));
 }
 
 /**
@@ -179,7 +179,7 @@ function declarationsOf(settingsOfWidget) {
 
 /** Writes the module of a core and its JavaScript glue, from the files that wasm-bindgen wrote. @param {string} moduleName @param {boolean} isLocal */
 async function completeCore(moduleName, isLocal) {
-  copyFileSync(absolutePath(`build/bound/${moduleName}/motion_bg.wasm`), absolutePath(`build/${moduleName}.wasm`));
+  copyFileSync(absolutePathOf(`build/bound/${moduleName}/motion_bg.wasm`), absolutePathOf(`build/${moduleName}.wasm`));
   if (!isLocal) {
     await replacePanicsByTraps(`build/${moduleName}.wasm`);
     await optimizeModule(`build/${moduleName}.wasm`);
@@ -196,7 +196,7 @@ async function replacePanicsByTraps(filePath) {
   // The package name is a variable, because only full builds install the package. The type checker would require a package with a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
-  const binaryenModule = binaryen.readBinary(readFileSync(absolutePath(filePath)));
+  const binaryenModule = binaryen.readBinary(readFileSync(absolutePathOf(filePath)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   binaryenModule.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   const { Function: functionWrapper } = binaryen;
@@ -208,7 +208,7 @@ async function replacePanicsByTraps(filePath) {
       functionWrapper.setBody(panicFunction, binaryenModule.unreachable());
     }
   }
-  writeFileSync(absolutePath(filePath), binaryenModule.emitBinary());
+  writeFileSync(absolutePathOf(filePath), binaryenModule.emitBinary());
   binaryenModule.dispose();
 }
 
@@ -220,8 +220,8 @@ async function optimizeModule(filePath, optimizerPasses = OPTIMIZER_PASSES) {
   // Features that rustc enables by default for WebAssembly, and SIMD from .cargo/config.toml.
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await runOrThrow('wasm-opt failed: see above.', process.execPath, [
-    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((featureName) => `--enable-${featureName}`), absolutePath(filePath),
-    '-o', absolutePath(filePath)], { isQuiet: true });
+    absolutePathOf('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((featureName) => `--enable-${featureName}`), absolutePathOf(filePath),
+    '-o', absolutePathOf(filePath)], { isQuiet: true });
   return stdout;
 }
 
@@ -235,7 +235,7 @@ async function optimizeModule(filePath, optimizerPasses = OPTIMIZER_PASSES) {
 
 /** Returns the names that wasm-bindgen has given to imports and exports. @param {string} moduleName @returns {Names} */
 function readGlueNames(moduleName) {
-  const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${moduleName}.wasm`)));
+  const wasmModule = new WebAssembly.Module(readFileSync(absolutePathOf(`build/${moduleName}.wasm`)));
   return {
     imports: WebAssembly.Module.imports(wasmModule).map((importEntry) => [importEntry.module, importEntry.name, importEntry.name]),
     exports: WebAssembly.Module.exports(wasmModule).map((exportEntry) => [exportEntry.name, exportEntry.name]),
@@ -265,7 +265,7 @@ async function writeGlue(moduleName, glueNames) {
     // wasm-bindgen adds the members of a namespace one by one, which bundlers take for side effects. A single pure expression lets them drop unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
-  const bindgenGlue = readFileSync(absolutePath(`build/bound/${moduleName}/motion_bg.js`), 'utf8');
+  const bindgenGlue = readFileSync(absolutePathOf(`build/bound/${moduleName}/motion_bg.js`), 'utf8');
   // Only the core of all widgets must match every pattern. The core of one widget has no namespaces, which the last pattern finds.
   const missingChange = moduleName === 'motion' && glueChanges.find(([gluePattern]) => !bindgenGlue.match(gluePattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
@@ -274,7 +274,7 @@ async function writeGlue(moduleName, glueNames) {
   const { build: bundleScript } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundleScript({
-    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: absolutePath(`build/bound/${moduleName}`) },
+    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: absolutePathOf(`build/bound/${moduleName}`) },
     bundle: true,
     format: 'esm',
     write: false,
@@ -293,9 +293,9 @@ async function writeGlue(moduleName, glueNames) {
     `return { ${exportNames} };`,
     '};',
   ];
-  writeFileSync(absolutePath(`build/${moduleName}.js`), `${moduleLines.join('\n')}\n`);
+  writeFileSync(absolutePathOf(`build/${moduleName}.js`), `${moduleLines.join('\n')}\n`);
   const declarationLine = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
-  writeFileSync(absolutePath(`build/${moduleName}.d.ts`), `${declarationLine}export default instantiate;\n`);
+  writeFileSync(absolutePathOf(`build/${moduleName}.d.ts`), `${declarationLine}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

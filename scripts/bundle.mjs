@@ -9,7 +9,7 @@ import { importTypeScript } from './declarations.mjs';
 import { readLicenceTexts, listBundledPackages } from './licences.mjs';
 import { createManifest } from './manifest.mjs';
 import { MAIN_PAGES, writePages } from './pages.mjs';
-import { REPOSITORY_ROOT, UserError, absolutePath, filesOf, printStep } from './process.mjs';
+import { REPOSITORY_ROOT, UserError, absolutePathOf, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { writeTypes } from './types.mjs';
@@ -106,7 +106,7 @@ const MODULE_SOURCES = {
 };
 
 /** Returns the module that a widget needs, without the simulations of other widgets. @param {string} widgetTag */
-const moduleFileOf = (widgetTag) => hashedFileOf(widgetTag, '.wasm', readFileSync(absolutePath(`build/${widgetTag}.wasm`)));
+const moduleFileOf = (widgetTag) => hashedFileOf(widgetTag, '.wasm', readFileSync(absolutePathOf(`build/${widgetTag}.wasm`)));
 
 /**
  * Returns a file of dist/chunks/ with a hash of its contents in the name.
@@ -154,8 +154,8 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
-  writeFileSync(absolutePath('build/widgets.js'), composeWidgetLoaders());
-  const moduleBytes = readFileSync(absolutePath('build/motion.wasm'));
+  writeFileSync(absolutePathOf('build/widgets.js'), composeWidgetLoaders());
+  const moduleBytes = readFileSync(absolutePathOf('build/motion.wasm'));
   const bytesScript = hashedFileOf('motion-bytes', '.js', MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS.utf8));
   /**
    * Bundles scripts of www/ for dist/.
@@ -168,7 +168,7 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
     build({
       entryPoints: Object.entries(entryPoints).map(([outputName, filePath]) => ({ in: join('www', filePath), out: outputName })),
       absWorkingDir: REPOSITORY_ROOT,
-      outdir: absolutePath('dist'),
+      outdir: absolutePathOf('dist'),
       bundle: true,
       minify: true,
       // Only a local build has source maps. In such a build no figure has a module of its own.
@@ -176,7 +176,7 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
-      inject: [absolutePath('www/without-dom.ts')],
+      inject: [absolutePathOf('www/without-dom.ts')],
       // Modules are always strict. A classic script needs the directive "use strict".
       tsconfigRaw: { compilerOptions: { alwaysStrict: buildOptions.format === 'iife' } },
       plugins: [
@@ -239,7 +239,7 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
     throw new UserError('The pages do not bundle: see the messages above.');
   }
 
-  rmSync(absolutePath('dist'), { recursive: true, force: true });
+  rmSync(absolutePathOf('dist'), { recursive: true, force: true });
   const writeOutput = (/** @type {string} */ filePath, /** @type {string | Uint8Array} */ fileContents) => {
     mkdirSync(dirname(filePath), { recursive: true });
     writeFileSync(filePath, fileContents);
@@ -248,28 +248,28 @@ export async function bundlePages({ tags: widgetTags = WIDGET_TAGS } = {}) {
     const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(filePath, '.map')) : fileContents;
     writeOutput(filePath, filePath.endsWith('.iife.js') ? escapeNonAscii(text) : outputContents);
   }
-  writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(await createManifest(), null, 1)}\n`);
-  for (const filePath of filesOf('www').filter((filePath) => /\.(html|css)$/.test(filePath))) copyFileSync(absolutePath(filePath), absolutePath(join('dist', relative('www', filePath))));
+  writeOutput(absolutePathOf('dist/custom-elements.json'), `${JSON.stringify(await createManifest(), null, 1)}\n`);
+  for (const filePath of filesOf('www').filter((filePath) => /\.(html|css)$/.test(filePath))) copyFileSync(absolutePathOf(filePath), absolutePathOf(join('dist', relative('www', filePath))));
   await writePages('dist', MAIN_PAGES);
   const { createPreUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
   // Figures need scripts. If scripts are disabled, no height is reserved for figures.
   const reservedHeightCss = `@media (scripting:enabled){\n${createPreUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity, so that any rule of a page takes precedence.
   const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.27em;text-align:start}`;
-  appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
-  writeOutput(absolutePath('dist/motion.wasm'), moduleBytes);
-  for (const { path: filePath, contents: fileContents } of [bytesScript, ...widgetTags.map(moduleFileOf)]) writeOutput(absolutePath(filePath), fileContents);
+  appendFileSync(absolutePathOf('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
+  writeOutput(absolutePathOf('dist/motion.wasm'), moduleBytes);
+  for (const { path: filePath, contents: fileContents } of [bytesScript, ...widgetTags.map(moduleFileOf)]) writeOutput(absolutePathOf(filePath), fileContents);
   const declarationPaths = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, filePath] of Object.entries(declarationPaths)) writeOutput(absolutePath(`dist/${name}.d.ts`), flattenImports(readFileSync(absolutePath(filePath), 'utf8')));
-  writeOutput(absolutePath('dist/external.d.ts'), ELEMENT_DECLARATIONS);
-  for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePath(`dist/${name}.d.ts`), 'export {};\n');
-  chmodSync(absolutePath('dist/cli.js'), 0o755);
-  writeOutput(absolutePath('dist/classroom.html'), composeInlinedPage('index.html'));
+  for (const [name, filePath] of Object.entries(declarationPaths)) writeOutput(absolutePathOf(`dist/${name}.d.ts`), flattenImports(readFileSync(absolutePathOf(filePath), 'utf8')));
+  writeOutput(absolutePathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
+  for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePathOf(`dist/${name}.d.ts`), 'export {};\n');
+  chmodSync(absolutePathOf('dist/cli.js'), 0o755);
+  writeOutput(absolutePathOf('dist/classroom.html'), composeInlinedPage('index.html'));
   // Sizes of the bundles, which tests/package/sizes.nightly.test.js reads.
   const bundleOutputs = Object.assign({}, ...bundleResults.map(({ metafile }) => metafile.outputs));
-  writeOutput(absolutePath('build/outputs.json'), JSON.stringify(bundleOutputs));
-  const linkedCrates = JSON.parse(readFileSync(absolutePath('build/crates.json'), 'utf8'));
-  writeOutput(absolutePath('dist/LICENSE-third-party.txt'), readLicenceTexts([...listBundledPackages(bundleOutputs), ...linkedCrates]));
+  writeOutput(absolutePathOf('build/outputs.json'), JSON.stringify(bundleOutputs));
+  const linkedCrates = JSON.parse(readFileSync(absolutePathOf('build/crates.json'), 'utf8'));
+  writeOutput(absolutePathOf('dist/LICENSE-third-party.txt'), readLicenceTexts([...listBundledPackages(bundleOutputs), ...linkedCrates]));
   await writePython();
 }
 
@@ -379,7 +379,7 @@ function flattenImports(typesSource) {
  * @param {string} name
  */
 function composeInlinedPage(name) {
-  const readDistFile = (/** @type {string} */ filePath) => readFileSync(absolutePath(join('dist', filePath)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
+  const readDistFile = (/** @type {string} */ filePath) => readFileSync(absolutePathOf(join('dist', filePath)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
   const styleLink = /<link rel="stylesheet" href="([\w.-]+)">/g;
   const scriptTag = /<script type="module" src="([\w.-]+)"><\/script>/g;
   const pageHtml = readDistFile(name);

@@ -5,7 +5,7 @@ import { pathToFileURL } from 'node:url';
 import { isDeepStrictEqual } from 'node:util';
 import { register } from 'tsx/esm/api';
 import { presets, settings } from '../build/settings.js';
-import { REPOSITORY_ROOT, absolutePath, memoizeWork } from './process.mjs';
+import { REPOSITORY_ROOT, absolutePathOf, memoizeWork } from './process.mjs';
 
 // tsx lets Node import TypeScript modules.
 register();
@@ -104,7 +104,7 @@ function numberTextOf(limitValue) {
 }
 
 /** Imports a TypeScript module of www/. @param {string} repositoryPath relative to the root of the repository @returns {Promise<any>} */
-export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolutePath(repositoryPath)).href);
+export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolutePathOf(repositoryPath)).href);
 
 /** Returns the comments of the elements' classes by the names of the classes. */
 export const readClassComments = memoizeWork(async () => {

@@ -9,7 +9,7 @@ import { fileURLToPath } from 'node:url';
 export const REPOSITORY_ROOT = fileURLToPath(new URL('..', import.meta.url));
 
 /** Returns the absolute path of a file of the repository. @param {string} repositoryPath */
-export const absolutePath = (repositoryPath) => join(REPOSITORY_ROOT, repositoryPath);
+export const absolutePathOf = (repositoryPath) => join(REPOSITORY_ROOT, repositoryPath);
 
 /** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
 export class UserError extends Error {}
@@ -239,8 +239,8 @@ export function isProgram(filePath) {
 
 /** Returns the sorted files in a directory. For a file, returns the file itself. @param {string} fileOrDirectory relative to the root of the repository */
 export function filesOf(fileOrDirectory) {
-  if (statSync(absolutePath(fileOrDirectory)).isFile()) return [fileOrDirectory];
-  return readdirSync(absolutePath(fileOrDirectory), { withFileTypes: true, recursive: true })
+  if (statSync(absolutePathOf(fileOrDirectory)).isFile()) return [fileOrDirectory];
+  return readdirSync(absolutePathOf(fileOrDirectory), { withFileTypes: true, recursive: true })
     .filter((directoryEntry) => directoryEntry.isFile())
     .map((directoryEntry) => relative(REPOSITORY_ROOT, join(directoryEntry.parentPath, directoryEntry.name)))
     .sort();

@@ -2,7 +2,7 @@
 
 import { readFileSync } from 'node:fs';
 import { describeWidgets } from './declarations.mjs';
-import { absolutePath } from './process.mjs';
+import { absolutePathOf } from './process.mjs';
 
 /**
  * @typedef {import('./declarations.mjs').Widget} Widget
@@ -36,7 +36,7 @@ const TABLE_BUILDERS = {
 
 /** Returns a page with tables in place of comments like `<!-- table of events -->`. @param {string} pageHtml */
 export async function insertTables(pageHtml) {
-  const { modules } = JSON.parse(readFileSync(absolutePath('dist/custom-elements.json'), 'utf8'));
+  const { modules } = JSON.parse(readFileSync(absolutePathOf('dist/custom-elements.json'), 'utf8'));
   const widgets = await describeWidgets();
   return pageHtml.replaceAll(/<!-- table of (\w+) -->/g, (_, itemName) => TABLE_BUILDERS[itemName](modules[0].declarations, widgets));
 }

@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { buildProject } from './build.mjs';
-import { UserError, absolutePath, filesOf, collectOutputOf, memoizeWork, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
+import { UserError, absolutePathOf, filesOf, collectOutputOf, memoizeWork, printStep, runProgram, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -74,7 +74,7 @@ const createProgramJob = ([programName, ...programArguments], programEnvironment
  * @param {string[]} scriptArguments
  * @param {Record<string, string>} [env]
  */
-const createNpmJob = (scriptPath, scriptArguments, env) => createProgramJob([process.execPath, absolutePath(join('node_modules', scriptPath)), ...scriptArguments], env);
+const createNpmJob = (scriptPath, scriptArguments, env) => createProgramJob([process.execPath, absolutePathOf(join('node_modules', scriptPath)), ...scriptArguments], env);
 
 /**
  * Returns a job that runs cargo.
@@ -144,7 +144,7 @@ const TEST_PARTS = {
   rust: {
     async prepare(programArgs) {
       // The first compilation is not incremental, which would take 18 % more processor time.
-      const env = existsSync(absolutePath('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
+      const env = existsSync(absolutePathOf('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
       return createCargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(IS_NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },
     countPatterns: COUNT_PATTERNS.cargo,
@@ -195,8 +195,8 @@ async function runParts(cliArguments) {
   if (partName !== undefined && !Object.hasOwn(TEST_PARTS, partName)) {
     throw new UserError(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(TEST_PARTS).join(', ')}.`);
   }
-  rmSync(absolutePath('test-results'), { recursive: true, force: true });
-  mkdirSync(absolutePath('test-results'));
+  rmSync(absolutePathOf('test-results'), { recursive: true, force: true });
+  mkdirSync(absolutePathOf('test-results'));
   if (partName !== undefined) return printSummary([await runPart(partName, moreArguments)]);
 
   // Installation starts before any part runs, because some lanes need the tools late. A part that needs a missing tool reports it.
@@ -245,7 +245,7 @@ async function runPart(partName, programArgs) {
  * @param {import('./browser.mjs').Browser} browser
  */
 function createBrowserEnvironment(runnerPath, { chromePath, driverPath }) {
-  const capabilitiesFile = absolutePath('test-results/webdriver.json');
+  const capabilitiesFile = absolutePathOf('test-results/webdriver.json');
   const chromeSettings = { binary: chromePath, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));
   return {

@@ -45,7 +45,7 @@ function renderWidget({ model: widgetModel, el: outputElement }: { model: Widget
   const saveChanges = () => {
     if (!hasUnsavedChanges) return;
     hasUnsavedChanges = false;
-    withoutKernel(() => widgetModel.save_changes());
+    ignoreMissingKernel(() => widgetModel.save_changes());
   };
 
   const traitPairs = traitPairsOf(element);
@@ -105,13 +105,13 @@ function renderWidget({ model: widgetModel, el: outputElement }: { model: Widget
   outputElement.append(element);
 
   return () => {
-    for (const stopListeningToTrait of stopFunctions) withoutKernel(stopListeningToTrait);
+    for (const stopListeningToTrait of stopFunctions) ignoreMissingKernel(stopListeningToTrait);
     element.remove();
   };
 }
 
 /** Does work that needs a kernel, and ignores errors. Models without a kernel, as in MyST, throw. */
-function withoutKernel(callKernel: () => void) {
+function ignoreMissingKernel(callKernel: () => void) {
   try {
     callKernel();
   } catch {

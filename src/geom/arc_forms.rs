@@ -210,8 +210,8 @@ impl DoubleDouble {
         let mut sine_sum = a * sine_sum;
         let mut versine_sum = angle_squared * versine_sum / Self::from(2.0);
         for _ in 0..HALVING_COUNT {
-            let small_cosine = Self::from(1.0) - versine_sum;
-            let (half_sine, half_versine) = (sine_sum * small_cosine, sine_sum * sine_sum);
+            let small_angle_cosine = Self::from(1.0) - versine_sum;
+            let (half_sine, half_versine) = (sine_sum * small_angle_cosine, sine_sum * sine_sum);
             (sine_sum, versine_sum) = (half_sine + half_sine, half_versine + half_versine);
         }
         (sine_sum, Self::from(1.0) - versine_sum)

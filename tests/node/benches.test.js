@@ -2,12 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { differencesFromCore } from '../../benches/check.js';
+import { findDifferencesFromCore } from '../../benches/check.js';
 import { importFreshModule } from './support.js';
 
 test('the baseline computes the same statistics and picture as the core', async () => {
   const motionCore = await (await importFreshModule()).load();
-  assert.deepEqual(differencesFromCore(motionCore, 2000), []);
+  assert.deepEqual(findDifferencesFromCore(motionCore, 2000), []);
 });
 
 test('the comparison of baseline and core reports a different skew', async () => {
@@ -18,6 +18,6 @@ test('the comparison of baseline and core reports a different skew', async () =>
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };
     }
   }
-  const differenceTexts = differencesFromCore(/** @type {any} */ ({ BananaMachine: SimulationWithOtherSkew }), 2000);
+  const differenceTexts = findDifferencesFromCore(/** @type {any} */ ({ BananaMachine: SimulationWithOtherSkew }), 2000);
   assert.deepEqual([...new Set(differenceTexts.map((differenceText) => differenceText.split(':')[0]))], ['crossTrackSkew']);
 });

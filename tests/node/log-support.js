@@ -14,7 +14,7 @@ export async function readLog(logFile, logChoice) {
 export async function catchRefusalError(logPromise) {
   const refusalError = await logPromise.then(() => undefined, (rejectionReason) => rejectionReason);
   assert.ok(refusalError instanceof LogError, String(refusalError));
-  assert.notEqual(refusalError.messageIn(german), refusalError.message);
+  assert.notEqual(refusalError.composeMessage(german), refusalError.message);
   return refusalError;
 }
 

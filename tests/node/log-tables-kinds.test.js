@@ -251,7 +251,7 @@ for (const [caseName, tableText, expectedMessage, options] of REFUSED_TABLES) {
     const refusalError = await catchRefusalError(readTable(tableText, options));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /; [a-z].+\.$/);
-    assert.match(refusalError.messageIn(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
+    assert.match(refusalError.composeMessage(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
   });
 }
 

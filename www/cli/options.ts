@@ -99,7 +99,7 @@ export function parseOptions(args: string[]) {
   if (optionValues.version) return 'version';
   if (optionValues.help || args.length === 0) return 'help';
   const inputPathsOf = (inputPaths: string[] = [], logRole?: LogRole) => inputPaths.map((inputPath): InputPath => ({ inputPath, logRole }));
-  const seriesChoiceOf = (logRole: LogRole) => withoutUndefined({ seriesName: optionValues[`${logRole}-topic`], framePair: parseFrames(`${logRole}-frames`, optionValues[`${logRole}-frames`]) });
+  const seriesChoiceOf = (logRole: LogRole) => dropUndefinedFields({ seriesName: optionValues[`${logRole}-topic`], framePair: parseFrames(`${logRole}-frames`, optionValues[`${logRole}-frames`]) });
   const logArguments = {
     inputPaths: [...inputPathsOf(positionalPaths), ...inputPathsOf(optionValues.recording), ...LOG_ROLES.flatMap((logRole) => inputPathsOf(optionValues[logRole], logRole))],
     optionsByFile: parseFileOptions(optionValues),
@@ -130,7 +130,7 @@ export function parseOptions(args: string[]) {
   return {
     command: 'calibrate' as const,
     ...logArguments,
-    fitOptions: withoutUndefined({
+    fitOptions: dropUndefinedFields({
       legs: legDuration === undefined ? { distance: legDistance ?? 0.25, angle: legAngle ?? 0.2 } : { duration: legDuration },
       model: optionValues.model ?? (optionValues.rule === 'omni' ? 'omnidirectional' : undefined),
       rule: optionValues.rule,
@@ -168,7 +168,7 @@ function nameRoles(args: string[]): string[] | undefined {
   return args.flatMap((argument, i) => (pathIndices.includes(i) ? [`--${LOG_ROLES[pathIndices.indexOf(i) % 2]}`, argument] : [argument]));
 }
 
-const withoutUndefined = <T extends object>(optionalFields: T): T => Object.fromEntries(Object.entries(optionalFields).filter(([, fieldValue]) => fieldValue !== undefined)) as T;
+const dropUndefinedFields = <T extends object>(optionalFields: T): T => Object.fromEntries(Object.entries(optionalFields).filter(([, fieldValue]) => fieldValue !== undefined)) as T;
 
 const formatAlternatives = (alternatives: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(alternatives);
 

@@ -33,7 +33,7 @@ export interface SliderSpec {
 /** Returns the slider of a setting. `rowOverrides` replaces fields of the slider's specification. */
 export function settingSliderHtml(figure: Figure, settingKey: string, rowOverrides?: Partial<SliderRow>, sliderSpec = figure.definition.sliderSpecs[settingKey]) {
   const { symbol: settingSymbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
-  const { name: settingName, effect: effectText } = wordsFor(figure, settingKey);
+  const { name: settingName, effect: effectText } = findSettingWords(figure, settingKey);
   const allowedNumbers = declarationOf(figure, settingKey);
   const { unit: unitText } = allowedNumbers;
   const settingValues = figure.settings.requestedValues;
@@ -68,7 +68,7 @@ export function pictureHtml(figure: Figure, picture: FigurePicture<any>, title: 
 export const settingSlidersHtml = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((settingKey) => settingSliderHtml(figure, settingKey));
 
 export const settingRadiosHtml = (figure: Figure, settingKey: string, labelsByWord: Record<string, string>) =>
-  radioGroupHtml(wordsFor(figure, settingKey).name, settingKey, labelsByWord, figure.settings.requestedValues[settingKey], (chosenWord) => figure.gesture.requestAndCommit({ [settingKey]: chosenWord }));
+  radioGroupHtml(findSettingWords(figure, settingKey).name, settingKey, labelsByWord, figure.settings.requestedValues[settingKey], (chosenWord) => figure.gesture.requestAndCommit({ [settingKey]: chosenWord }));
 
 export const settingCheckboxHtml = (figure: Figure, settingKey: string, checkboxLabel: unknown) =>
   checkboxHtml({ labelContent: checkboxLabel, isChecked: figure.settings.requestedValues[settingKey], onChange: (isChecked) => figure.gesture.requestAndCommit({ [settingKey]: isChecked }) });
@@ -117,7 +117,7 @@ export function panelHtml(title: string, panelContent: unknown, className?: stri
 export const declarationOf = (figure: Figure, settingKey: string): Declaration & AllowedNumbers =>
   (figure.definition.settingDeclarations.find((settingDeclaration) => settingDeclaration.key === settingKey) ?? figure.definition.elementFields[settingKey]) as any;
 
-function wordsFor(figure: Figure, settingKey: string): { name: string, effect?: string } {
+function findSettingWords(figure: Figure, settingKey: string): { name: string, effect?: string } {
   const [motionModel, index] = figure.definition.sliderSpecs[settingKey]?.alpha ?? [];
   const [alphaName, alphaEffect] = motionModel ? words.alphas[motionModel][index as number] : [];
   return { ...(words.settings as any)[settingKey], ...(motionModel && { name: alphaName, effect: alphaEffect }), ...(words as any)[figure.definition.messageKey].settings[settingKey] };

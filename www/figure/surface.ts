@@ -91,7 +91,7 @@ const stopPropagation = (event: Event) => event.stopPropagation();
 
 const FOCUSABLE_SELECTOR = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-function focusableElementsIn(searchRoot: ParentNode): HTMLElement[] {
+function findFocusableElements(searchRoot: ParentNode): HTMLElement[] {
   return ([...searchRoot.querySelectorAll(FOCUSABLE_SELECTOR)] as HTMLElement[]).filter((element) => element.checkVisibility());
 }
 
@@ -112,7 +112,7 @@ export class FocusKeeper extends FigureController {
     const [previousControl, ...focusAncestors] = this.#focusPath;
     if (!previousControl || (previousControl.isConnected && previousControl.checkVisibility() && !previousControl.matches(':disabled'))) return;
     for (const ancestorElement of focusAncestors) {
-      const [nextControl] = ancestorElement.isConnected ? focusableElementsIn(ancestorElement) : [];
+      const [nextControl] = ancestorElement.isConnected ? findFocusableElements(ancestorElement) : [];
       if (!nextControl) continue;
       nextControl.focus({ preventScroll: true });
       return;
@@ -128,7 +128,7 @@ async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) 
   await figure.updateComplete;
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.simulation || document.activeElement !== document.body) return;
-  const focusableElements = focusableElementsIn(figure.renderRoot);
+  const focusableElements = findFocusableElements(figure.renderRoot);
   // If the previous focus was below the figure, Shift+Tab was pressed.
   const isFocusFromBelow = previousFocus instanceof Node && figure.compareDocumentPosition(previousFocus) & Node.DOCUMENT_POSITION_FOLLOWING;
   focusableElements.at(isFocusFromBelow ? -1 : 0)?.focus();

@@ -57,12 +57,12 @@ export function planDrives(allRecordings: Recording[], userChoices: UserChoices 
     if (!logRole) throw new LogError({ fileName: recording.recordingName }, (errorReasons) => errorReasons.unknownRoleReason, { optionName: 'roles', possibleAnswers: [] });
     return { recording, logChoices: logRole === 'both' ? chooseBothLogs(recording, userChoices) : { [logRole]: chooseLog(recording, logRole, userChoices) } };
   });
-  const recordingsWith = (logRole: LogRole) => drivePlan.filter(({ logChoices }) => logChoices[logRole]);
+  const recordingsWithRole = (logRole: LogRole) => drivePlan.filter(({ logChoices }) => logChoices[logRole]);
   // If there are separate files for one role, the logs of that role in recordings with odometry and reference are not used.
-  const [rarerRole, replacedRole] = recordingsWith('odometry').length < recordingsWith('reference').length ? LOG_ROLES : LOG_ROLES.toReversed();
+  const [rarerRole, replacedRole] = recordingsWithRole('odometry').length < recordingsWithRole('reference').length ? LOG_ROLES : LOG_ROLES.toReversed();
   const completeRecordings = drivePlan.filter(({ logChoices }) => logChoices.odometry && logChoices.reference);
-  if (completeRecordings.length === recordingsWith(replacedRole).length - recordingsWith(rarerRole).length) for (const { logChoices } of completeRecordings) delete logChoices[replacedRole];
-  const [odometryRecordings, referenceRecordings] = LOG_ROLES.map((logRole) => recordingsWith(logRole).map(({ recording }) => recording));
+  if (completeRecordings.length === recordingsWithRole(replacedRole).length - recordingsWithRole(rarerRole).length) for (const { logChoices } of completeRecordings) delete logChoices[replacedRole];
+  const [odometryRecordings, referenceRecordings] = LOG_ROLES.map((logRole) => recordingsWithRole(logRole).map(({ recording }) => recording));
   if (odometryRecordings.length !== referenceRecordings.length) {
     const unpairedRecordings = odometryRecordings.length > referenceRecordings.length ? odometryRecordings : referenceRecordings;
     // If a recording has several candidates for the missing log, this call throws a LogError that asks which one to read. Such a question helps more than
@@ -102,7 +102,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   const odometryChoice = tryUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
   const referenceChoice = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometryChoice);
   if (isSameChoice(odometryChoice, referenceChoice)) {
-    const userQuestion = { optionName: 'series' as const, logRole: 'reference' as const, possibleAnswers: seriesNamesFor(recording, 'reference').filter((seriesName) => seriesName !== referenceChoice.seriesName) };
+    const userQuestion = { optionName: 'series' as const, logRole: 'reference' as const, possibleAnswers: listSeriesNamesFor(recording, 'reference').filter((seriesName) => seriesName !== referenceChoice.seriesName) };
     throw new LogError({ fileName: recording.recordingName, topicName: referenceChoice.seriesName }, (errorReasons) => errorReasons.sameLogReason(referenceChoice.framePair ? formatFrames(referenceChoice.framePair) : referenceChoice.seriesName), userQuestion);
   }
   return { odometry: odometryChoice, reference: referenceChoice };
@@ -121,7 +121,7 @@ function chooseLog(recording: Recording, logRole: LogRole, userChoices: UserChoi
     ? recording.seriesList.find((seriesEntry) => seriesEntry.framePairs)
     : findSeriesByName(recording.seriesList, seriesName);
   if (!chosenSeries) {
-    const seriesNames = seriesNamesFor(recording, logRole);
+    const seriesNames = listSeriesNamesFor(recording, logRole);
     throw new LogError(
       { fileName: recording.recordingName, topicName: seriesName },
       (errorReasons) => errorReasons.unknownTopicReason(describeSeries(readableSeriesOf(recording))),
@@ -162,7 +162,7 @@ function guessChoice(recording: Recording, logRole: LogRole, userChoices: UserCh
   throw new LogError(
     { fileName: recordingName },
     (errorReasons) => (bestChoices.length > 0 ? errorReasons.ambiguousRoleReason : errorReasons.missingRoleReason)(logRole, describeSeries(usableSeries)),
-    { optionName: 'series', logRole, possibleAnswers: bestChoices.length > 0 ? seriesNamesFor(recording, logRole).filter((seriesName) => seriesName !== otherRoleChoice?.seriesName) : usableSeries.filter(({ seriesKind }) => logRole === 'odometry' && seriesKind === 'commands').map(({ seriesName }) => seriesName) },
+    { optionName: 'series', logRole, possibleAnswers: bestChoices.length > 0 ? listSeriesNamesFor(recording, logRole).filter((seriesName) => seriesName !== otherRoleChoice?.seriesName) : usableSeries.filter(({ seriesKind }) => logRole === 'odometry' && seriesKind === 'commands').map(({ seriesName }) => seriesName) },
   );
 }
 
@@ -193,7 +193,7 @@ function findSeriesByName(seriesList: Series[], wantedSeriesName: string): Serie
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */
-function seriesNamesFor(recording: Recording, logRole: LogRole): string[] {
+function listSeriesNamesFor(recording: Recording, logRole: LogRole): string[] {
   const usableSeries = readableSeriesOf(recording).filter(({ seriesKind }) => logRole === 'odometry' || seriesKind !== 'commands');
   return [...new Set([...findCandidates(recording, logRole).flat().map(({ seriesName }) => seriesName), ...usableSeries.map(({ seriesName }) => seriesName)])];
 }

@@ -214,10 +214,10 @@ function detectMotiveFormat(preambleRows: string[][], errorPlace: ErrorPlace): P
   const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
   if (rotationType !== 'Quaternion') throw new LogError(errorPlace, (errorReasons) => errorReasons.eulerAnglesReason(truncate(rotationType)));
   const lengthUnitName = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
-  const bodyTypes = findRowByName('Type');
+  const typeCells = findRowByName('Type');
   const columnNames = axisRow.map((axisLetter, i) => {
     if (/^Time/.test(axisLetter.trim())) return 't [s]';
-    const isRigidBody = bodyTypes === undefined || bodyTypes[i]?.trim() === 'Rigid Body';
+    const isRigidBody = typeCells === undefined || typeCells[i]?.trim() === 'Rigid Body';
     const bodyName = bodyNames[i]?.trim() ?? '';
     if (!isRigidBody || bodyName === '') return '-';
     const axisName = axisLetter.trim().toLowerCase();

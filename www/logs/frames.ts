@@ -2,7 +2,7 @@
 
 import { bisector, sort } from 'd3-array';
 import { formatFrames, type FramePair } from './log.ts';
-import { rowOfPose, withoutSlash, type StampedTransform, type FrameTransform } from './messages.ts';
+import { rowOfPose, removeLeadingSlash, type StampedTransform, type FrameTransform } from './messages.ts';
 import { multiplyQuaternions } from './path.ts';
 import type { LogSample } from './rows.ts';
 
@@ -40,7 +40,7 @@ export class FrameTree {
   #chainLinks: FrameLink[] = [];
 
   constructor(chainEnds?: FramePair) {
-    this.#chainEnds = chainEnds && { parent: withoutSlash(chainEnds.parent), child: withoutSlash(chainEnds.child) };
+    this.#chainEnds = chainEnds && { parent: removeLeadingSlash(chainEnds.parent), child: removeLeadingSlash(chainEnds.child) };
   }
 
   /** Adds a transform to the link between its frames. */
@@ -64,7 +64,7 @@ export class FrameTree {
     return this.#chainLinks.length > 0;
   }
 
-  #linksTo(childFrame: string): FrameLink[] {
+  #findLinksTo(childFrame: string): FrameLink[] {
     return this.frameLinks.filter((frameLink) => frameLink.child === childFrame);
   }
 
@@ -72,7 +72,7 @@ export class FrameTree {
   #findChain({ parent: parentFrame, child: childFrame }: FramePair, visitedFrames = new Set<string>()): FrameLink[] | undefined {
     if (visitedFrames.has(childFrame)) return undefined;
     visitedFrames.add(childFrame);
-    for (const frameLink of this.#linksTo(childFrame)) {
+    for (const frameLink of this.#findLinksTo(childFrame)) {
       const linkChain = frameLink.parent === parentFrame ? [] : this.#findChain({ parent: parentFrame, child: frameLink.parent }, visitedFrames);
       if (linkChain) return [...linkChain, frameLink];
     }
@@ -102,7 +102,7 @@ export class FrameTree {
   /** Returns the ancestors of a frame: its parent, the parent of its parent, and so on. */
   #ancestorsOf(frameName: string): string[] {
     const ancestorFrames = new Set<string>([frameName]);
-    for (const ancestorFrame of ancestorFrames) for (const { parent: parentFrame } of this.#linksTo(ancestorFrame)) ancestorFrames.add(parentFrame);
+    for (const ancestorFrame of ancestorFrames) for (const { parent: parentFrame } of this.#findLinksTo(ancestorFrame)) ancestorFrames.add(parentFrame);
     return [...ancestorFrames].slice(1);
   }
 

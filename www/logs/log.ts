@@ -212,7 +212,7 @@ export class LogError extends Error {
   /** Question whose answer resolves the error. */
   userQuestion?: UserQuestion;
   /** Returns the message in the language of the given words. */
-  messageIn: (errorReasons: LogTexts) => string;
+  composeMessage: (errorReasons: LogTexts) => string;
 
   constructor(place: ErrorPlace, formatReason: ErrorReason, userQuestion?: UserQuestion) {
     const composeMessage = (summaryTexts: LogTexts) => `${summaryTexts.errorPlaceText(truncate(place.fileName), place.lineNumber ?? 0, truncate(place.topicName ?? ''))}: ${formatReason(summaryTexts.refusalReasons)}`;
@@ -220,7 +220,7 @@ export class LogError extends Error {
     this.name = 'LogError';
     this.errorPlace = place;
     this.userQuestion = userQuestion;
-    this.messageIn = composeMessage;
+    this.composeMessage = composeMessage;
   }
 }
 

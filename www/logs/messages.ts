@@ -147,7 +147,7 @@ export function sampleReaderOf(messageType: string): ((recordedMessage: Recorded
 }
 
 /** Returns the name of a coordinate frame without the leading slash that ROS 1's old tf library wrote. */
-export const withoutSlash = (frameName: string) => frameName.replace(/^\/+/, '');
+export const removeLeadingSlash = (frameName: string) => frameName.replace(/^\/+/, '');
 
 /** Reads the transforms of a message. Throws an error if the bytes are of another message type. */
 export function readTransforms(recordedMessage: RecordedMessage): StampedTransform[] {
@@ -155,7 +155,7 @@ export function readTransforms(recordedMessage: RecordedMessage): StampedTransfo
   const stampedTransforms: StampedTransform[] = [];
   for (let remainingCount = messageReader.readUint32(); remainingCount > 0; remainingCount--) {
     const stampTime = messageReader.readStamp();
-    const [parentFrame, childFrame] = [withoutSlash(messageReader.readString()), withoutSlash(messageReader.readString())];
+    const [parentFrame, childFrame] = [removeLeadingSlash(messageReader.readString()), removeLeadingSlash(messageReader.readString())];
     stampedTransforms.push({ stampTime, parent: parentFrame, child: childFrame, frameTransform: readTransform(messageReader) });
   }
   return stampedTransforms;

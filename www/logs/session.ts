@@ -84,6 +84,6 @@ function nameOf(drivePlan: PlannedRecording[]): string {
   return [...recordingNames.slice(0, MAX_NAMED_FILES), ...(recordingNames.length > MAX_NAMED_FILES ? ['…'] : []), ...(recordingNames.length === 1 ? Object.values(logChoices).map(choiceLabelOf) : [])].filter(Boolean).join(', ');
 }
 
-function failureOf({ message: errorMessage, errorPlace, userQuestion, messageIn: formatMessage }: LogError): LogFailure {
+function failureOf({ message: errorMessage, errorPlace, userQuestion, composeMessage: formatMessage }: LogError): LogFailure {
   return { message: errorMessage, errorPlace, userQuestion, sentencesByLanguage: { en: formatMessage(english), de: formatMessage(german) } };
 }

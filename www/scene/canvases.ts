@@ -60,8 +60,8 @@ export class Canvases {
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
       const [estimatedWidth, estimatedHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
       // While its developer tools emulate a phone, Chromium reports CSS pixels as device pixels. Reported sizes are used only if they agree with the estimate.
-      const isExact = Math.max(Math.abs(width - estimatedWidth), Math.abs(height - estimatedHeight)) < 1;
-      [canvas.width, canvas.height] = (isExact ? [width, height] : [estimatedWidth, estimatedHeight]).map(Math.round);
+      const isEstimateExact = Math.max(Math.abs(width - estimatedWidth), Math.abs(height - estimatedHeight)) < 1;
+      [canvas.width, canvas.height] = (isEstimateExact ? [width, height] : [estimatedWidth, estimatedHeight]).map(Math.round);
     }
     this.#drawResized();
   }

@@ -33,8 +33,8 @@ const MAX_EXTRA_DECIMALS = 2;
  * but 0.05210987 is "0.052".
  */
 export function formatEditable(number: number, decimals: number): string {
-  const typedDecimals = String(number).split('.')[1]?.length ?? 0;
-  return formatFixed(number, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
+  const typedDecimalCount = String(number).split('.')[1]?.length ?? 0;
+  return formatFixed(number, typedDecimalCount > decimals && typedDecimalCount <= decimals + MAX_EXTRA_DECIMALS ? typedDecimalCount : decimals);
 }
 
 /** Magnitude below which a number counts as a rounded 0. */

@@ -35,15 +35,15 @@ export const reservedHeightCssOf = (elementTag: string) =>
 /** Returns the style sheet that reserves heights until the elements are defined. */
 export function createPreUpgradeCss() {
   const elementTags = Object.keys(HEIGHTS_EM);
-  const undefinedSelectorFor = (elementSelectors: string | string[]) => `:is(${elementSelectors}):not(:defined)`;
+  const composeUndefinedSelector = (elementSelectors: string | string[]) => `:is(${elementSelectors}):not(:defined)`;
   return [
-    `${undefinedSelectorFor(elementTags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
-    `${undefinedSelectorFor(elementTags)}::before{${preferredWidthCss}}`,
-    `${undefinedSelectorFor(elementTags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    `${composeUndefinedSelector(elementTags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
+    `${composeUndefinedSelector(elementTags)}::before{${preferredWidthCss}}`,
+    `${composeUndefinedSelector(elementTags)}>:not([slot]){position:absolute;top:0;margin:0}`,
     // The title and caption of an element that is not defined yet look as they do in the figure.
-    `:where(${undefinedSelectorFor(elementTags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
-    `:where(${undefinedSelectorFor(elementTags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
-    `:where(${undefinedSelectorFor(elementTags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
-    ...elementTags.map((elementTag) => `${undefinedSelectorFor(elementTag)}::before{padding-top:${heightCssOf(elementTag, '%')}}`),
+    `:where(${composeUndefinedSelector(elementTags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
+    `:where(${composeUndefinedSelector(elementTags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
+    `:where(${composeUndefinedSelector(elementTags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
+    ...elementTags.map((elementTag) => `${composeUndefinedSelector(elementTag)}::before{padding-top:${heightCssOf(elementTag, '%')}}`),
   ].join('\n');
 }

@@ -39,16 +39,16 @@ const opcodeOf = (recordHeader: DataView) => fieldOf(recordHeader, 'op').getUint
 interface BagRecord { recordHeader: DataView; dataStart: number; dataEnd: number }
 
 /** Returns the header of a record, and the range of its data. Throws a RangeError if the view ends in the header. */
-function recordAt(blockView: DataView, recordStart: number): BagRecord {
+function readRecordAt(blockView: DataView, recordStart: number): BagRecord {
   const headerEnd = recordStart + 4 + blockView.getUint32(recordStart, true);
   if (headerEnd + 4 > blockView.byteLength) throw new RangeError('a header is damaged or cut short');
   const dataStart = headerEnd + 4;
   return { recordHeader: new DataView(blockView.buffer, blockView.byteOffset + recordStart + 4, headerEnd - recordStart - 4), dataStart, dataEnd: dataStart + blockView.getUint32(headerEnd, true) };
 }
 
-function* recordsIn(blockView: DataView): Generator<BagRecord> {
+function* readRecordsIn(blockView: DataView): Generator<BagRecord> {
   for (let recordStart = 0; recordStart < blockView.byteLength; ) {
-    const bagRecord = recordAt(blockView, recordStart);
+    const bagRecord = readRecordAt(blockView, recordStart);
     if (bagRecord.dataEnd > blockView.byteLength) throw new RangeError('a record is cut short');
     yield bagRecord;
     recordStart = bagRecord.dataEnd;
@@ -62,13 +62,13 @@ class RosbagFile extends MessageFile {
   async readIndex(): Promise<boolean> {
     const { size: fileSize } = this.sourceFile;
     try {
-      const { recordHeader } = recordAt(dataViewOf(await readBytes(this.sourceFile, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
+      const { recordHeader } = readRecordAt(dataViewOf(await readBytes(this.sourceFile, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
       const [indexStart, chunkCount] = [readUint53(fieldOf(recordHeader, 'index_pos'), 0), uint32Of(recordHeader, 'chunk_count')];
       if (opcodeOf(recordHeader) !== BAG_OPCODE || indexStart === 0 || indexStart > fileSize) return false;
       const bytes = await readBytes(this.sourceFile, indexStart, fileSize);
       const blockView = dataViewOf(bytes);
       const indexedChunks = [];
-      for (const { recordHeader, dataStart, dataEnd } of recordsIn(blockView)) {
+      for (const { recordHeader, dataStart, dataEnd } of readRecordsIn(blockView)) {
         const opcode = opcodeOf(recordHeader);
         if (opcode === CONNECTION_OPCODE) this.#addConnection(recordHeader, bytes.subarray(dataStart, dataEnd));
         if (opcode !== CHUNK_INFO_OPCODE) continue;
@@ -100,7 +100,7 @@ class RosbagFile extends MessageFile {
     const { size: fileSize } = this.sourceFile;
     const readBytesAt = createAheadReader(this.sourceFile);
     const readBlock = async (recordStart: number, setEnd: (blockEnd: number) => void) => {
-      const { recordHeader, dataStart, dataEnd } = recordAt(dataViewOf(await readBytesAt(recordStart, Math.min(recordStart + MAX_HEADER_BYTES, fileSize))), 0);
+      const { recordHeader, dataStart, dataEnd } = readRecordAt(dataViewOf(await readBytesAt(recordStart, Math.min(recordStart + MAX_HEADER_BYTES, fileSize))), 0);
       if (recordStart + dataEnd > fileSize) throw new RangeError('a record is cut short');
       setEnd(recordStart + dataEnd);
       const opcode = opcodeOf(recordHeader);
@@ -116,7 +116,7 @@ class RosbagFile extends MessageFile {
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
     const blockView = dataViewOf(bytes);
-    for (const { recordHeader, dataStart, dataEnd } of recordsIn(blockView)) {
+    for (const { recordHeader, dataStart, dataEnd } of readRecordsIn(blockView)) {
       const opcode = opcodeOf(recordHeader);
       if (opcode === CONNECTION_OPCODE) this.#addConnection(recordHeader, bytes.subarray(dataStart, dataEnd));
       const topicChannel = opcode === MESSAGE_OPCODE ? this.channelsById.get(uint32Of(recordHeader, 'conn')) : undefined;

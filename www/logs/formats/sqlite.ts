@@ -124,8 +124,8 @@ class Rosbag2 extends MessageFile {
   }
 
   #readRowAt(pageBytes: Uint8Array, cellOffset: number): TableRow {
-    const [payloadLength, afterLength] = varintAt(pageBytes, cellOffset);
-    const [id, payloadStart] = varintAt(pageBytes, afterLength);
+    const [payloadLength, afterLength] = readVarintAt(pageBytes, cellOffset);
+    const [id, payloadStart] = readVarintAt(pageBytes, afterLength);
     const localEnd = payloadStart + this.#localByteCountOf(payloadLength);
     if (localEnd > pageBytes.length || payloadLength > Math.min(MAX_ROW_BYTES, this.sourceFile.size)) throw new RangeError('a row is damaged');
     const localBytes = pageBytes.subarray(payloadStart, localEnd);
@@ -167,7 +167,7 @@ function cellOffsetsOf(pageBytes: Uint8Array, pageNumber: number): number[] {
 }
 
 /** Returns a variable-length integer of one to nine bytes, and the position after it. */
-function varintAt(bytes: Uint8Array, varintStart: number): [value: number, next: number] {
+function readVarintAt(bytes: Uint8Array, varintStart: number): [value: number, next: number] {
   let varintValue = 0;
   for (let i = 0; i < 9; i++) {
     if (varintStart + i >= bytes.length) break;
@@ -184,9 +184,9 @@ const INTEGER_BYTES = [0, 1, 2, 3, 4, 6, 8, 8, 0, 0];
 /** Returns the values of a row of `byteCount` bytes; throws a RangeError if they do not fit into it. */
 function rowValuesOf(rowBytes: Uint8Array, byteCount: number): RowValue[] {
   const rowValues: RowValue[] = [];
-  let [valueStart, typeStart] = varintAt(rowBytes, 0);
+  let [valueStart, typeStart] = readVarintAt(rowBytes, 0);
   for (const headerEnd = valueStart; typeStart < headerEnd; ) {
-    const [serialType, nextTypeStart] = varintAt(rowBytes, typeStart);
+    const [serialType, nextTypeStart] = readVarintAt(rowBytes, typeStart);
     const valueEnd = valueStart + (INTEGER_BYTES[serialType] ?? (serialType - 12 - (serialType % 2)) / 2);
     rowValues.push({ serialType, valueStart, valueEnd });
     [valueStart, typeStart] = [valueEnd, nextTypeStart];

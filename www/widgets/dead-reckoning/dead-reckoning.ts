@@ -24,7 +24,7 @@ const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 const columnTitlesOf = (quantityName: string) => TWIST_COMPONENTS.map((name) => `${quantityName}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
 /** Returns settings that divide the same path into another number of steps. The selected step stays at about the same point of the path. */
-function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
+function adaptSettingsToSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
   return { steps, step: Math.max(1, Math.round((step * steps) / previousSteps)), command: { ...command, dt: (command.dt * previousSteps) / steps } };
 }
 
@@ -174,7 +174,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 
       <div class="controls" part="controls">
-        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (newStepCount) => this.settings.requestChange((requestedSettings) => settingsForSteps(requestedSettings, newStepCount)) })}
+        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (newStepCount) => this.settings.requestChange((requestedSettings) => adaptSettingsToSteps(requestedSettings, newStepCount)) })}
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => moreControlsHtml(this),

@@ -13,17 +13,10 @@ import type { Figure } from './figure.ts';
 import type { FigurePicture } from '../scene/picture.ts';
 
 /** Specification of the slider of a numeric setting. */
-export interface SliderSpec {
+export interface SliderSpec extends Pick<SliderRow, 'colourRole' | 'min' | 'max' | 'step' | 'stops'> {
   /** Mathematical symbol, in the markup of messages: see formatMarkup. */
   symbol?: string;
-  colourRole: 'prior' | 'prediction' | 'truth';
-  /** Minimum of the slider, within the allowed values. */
-  min: number;
-  max: number;
-  step: number;
   decimals: number;
-  /** Values of the slider, if they are not in equal steps. */
-  stops?: readonly number[];
   /** Returns the value of a slider that shows several settings as one number. */
   combinedValueOf?: (settingValues: any) => number;
   /** Noise parameter whose name and effect label the slider. */

@@ -4,7 +4,7 @@ import { css, html, nothing, svg, unsafeCSS } from 'lit';
 import { formatMarkup } from './controls.ts';
 import { clampNumber, formatPowerOfTen, ticksOfAxis } from './format.ts';
 import { sliderTrackHtml } from './slider.ts';
-import { swatchHtml } from './theme.ts';
+import { swatchHtml, type LineStyle } from './theme.ts';
 
 const CHART_WIDTH = 380;
 const CHART_HEIGHT = 250;
@@ -84,14 +84,9 @@ interface PlotAxis {
   isLogarithmic?: boolean;
 }
 
-export type ColourRole = Exclude<keyof import('./theme.ts').ColourPalette, 'paper' | 'rule'>;
-
-export interface PlotCurve {
+export interface PlotCurve extends Pick<LineStyle, 'colourRole' | 'dash'> {
   /** Name in the legend; *stars* make italics. */
   name: string;
-  colourRole: ColourRole;
-  /** Dash pattern, which distinguishes the curve without colours. */
-  dash?: number[];
   x: ArrayLike<number>;
   /** Values along y. A NaN leaves a gap in the curve. */
   y: ArrayLike<number>;
@@ -102,8 +97,7 @@ export interface PlotCurve {
   isHighlighted?: boolean;
 }
 
-interface DataPoint {
-  colourRole: ColourRole;
+interface DataPoint extends Pick<LineStyle, 'colourRole'> {
   x: number;
   y: number;
   error: number;

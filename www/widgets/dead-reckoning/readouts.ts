@@ -5,7 +5,7 @@ import { html, nothing } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatInteger, formatFixed, formatWithError, formatSignificant } from '../../ui/format.ts';
-import { plotHtml, type ColourRole } from '../../ui/plot.ts';
+import { plotHtml } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { en } from './en.ts';
 import { TWIST_COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
@@ -102,7 +102,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
 
 /** Returns the colour role, the dash and the highlight of a curve in the chart of predicted over measured variance. */
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
-  const { colourRole, dash } = CURVE_STYLES[name] as import('../../ui/theme.ts').LineStyle & { colourRole: ColourRole };
+  const { colourRole, dash } = CURVE_STYLES[name] as import('../../ui/theme.ts').LineStyle;
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
   return { colourRole, dash, isHighlighted };
 }

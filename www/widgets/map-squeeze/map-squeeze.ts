@@ -188,7 +188,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   readViewModel(simulation: Simulation) {
     const viewModel = viewModelOf(simulation);
-    if (viewModel.config.unknown !== this.#unknownCellsOfPicture && this.picture.hasUnknownCells) this.onSimulationReplaced();
+    if (viewModel.config.unknown !== this.#unknownCellsOfPicture && this.picture.grid?.unknown) this.onSimulationReplaced();
     return viewModel;
   }
 
@@ -318,7 +318,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   renderContent(viewModel: ViewModel) {
     const { posesByOutcome, stats, stuckNote, verdicts } = viewModel;
     const { isSelectionShown, selectedIndex } = this.cloud;
-    const { hasUnknownCells } = this.picture;
+    const hasUnknownCells = this.picture.grid?.unknown !== undefined;
     const { floorTitle, densityNote } = words.squeeze;
     const { unknown, ...markStyles } = LINE_STYLES;
     return html`

@@ -52,9 +52,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
   pictureName = 'plane';
   pictureView: PictureView = new PictureView({ relativeMargin: 0 });
   plan: Plan = { bounds: new Float64Array(4), walls: new Float64Array() };
-  hasUnknownCells = false;
-  /** True for a floor plan, false for a grid. The walls of a grid outline its cells, and cannot be moved. */
-  hasMovableWalls = true;
+  /** Cells of the map; null for a floor plan. The walls of a grid outline its cells, and cannot be moved. */
+  grid: CellGrid | null = null;
   #wallLayer = new WallLayer(this.plan, null);
   /** Corners of cells around the known part of the map. This part may be much smaller than the map. */
   #knownCorners: ArrayLike<number> = [];
@@ -65,8 +64,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   setMap(plan: Plan, grid: CellGrid | null) {
     if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) this.pictureView.clearTarget();
     this.plan = plan;
-    this.hasUnknownCells = grid?.unknown !== undefined;
-    this.hasMovableWalls = grid === null;
+    this.grid = grid;
     this.#wallLayer = new WallLayer(plan, grid);
     this.#knownCorners = grid?.unknown ? knownCornersOf(grid, grid.unknown) : plan.walls;
   }

@@ -29,8 +29,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #tabbableName = '';
 
   get #movableGrips() {
-    const { plan, hasMovableWalls } = this.figure.picture;
-    return this.#gripsMemo.getResult([plan], () => (hasMovableWalls && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
+    const { plan, grid } = this.figure.picture;
+    return this.#gripsMemo.getResult([plan], () => (grid === null && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
   /** Visible grips (movable ends of walls, or whole walls), each with its handle and its point in the picture. While a handle is dragged, its grip counts as visible. */

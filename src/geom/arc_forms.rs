@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::ops::{Add, Div, Mul, Sub};
 
 const SPEED: f64 = 1.0;
-const DURATION: f64 = 0.1;
+const ARC_DURATION: f64 = 0.1;
 
 /// Turn rate |ω̂| (rad/s) below which the code of the book's chapter drives a straight line.
 const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
@@ -50,7 +50,7 @@ pub fn form_errors() -> FormErrors {
         arc: errors_of_form(0),
         straight: errors_of_form(1),
         chord: errors_of_form(2),
-        estimated_crossover: (2.0 * f64::EPSILON).sqrt() / DURATION,
+        estimated_crossover: (2.0 * f64::EPSILON).sqrt() / ARC_DURATION,
         threshold: STRAIGHT_LINE_THRESHOLD,
         omega,
     }
@@ -76,7 +76,7 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
 
 fn end_by_arc(theta: f64, omega: f64) -> [f64; 2] {
     let arc_radius = SPEED / omega;
-    let end_heading = theta + omega * DURATION;
+    let end_heading = theta + omega * ARC_DURATION;
     [
         arc_radius * libm::sin(end_heading) - arc_radius * libm::sin(theta),
         arc_radius * libm::cos(theta) - arc_radius * libm::cos(end_heading),
@@ -84,19 +84,19 @@ fn end_by_arc(theta: f64, omega: f64) -> [f64; 2] {
 }
 
 fn end_by_straight_line(theta: f64) -> [f64; 2] {
-    let driven_length = SPEED * DURATION;
+    let driven_length = SPEED * ARC_DURATION;
     [driven_length * libm::cos(theta), driven_length * libm::sin(theta)]
 }
 
 fn end_by_chord(theta: f64, omega: f64) -> [f64; 2] {
-    let (ahead_offset, left_offset) = arc_end(SPEED * DURATION, omega * DURATION);
+    let (ahead_offset, left_offset) = arc_end(SPEED * ARC_DURATION, omega * ARC_DURATION);
     let (sin, cos) = libm::sincos(theta);
     [cos * ahead_offset - sin * left_offset, sin * ahead_offset + cos * left_offset]
 }
 
 fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
-    let half_turn = DoubleDouble::product(0.5 * omega, DURATION);
-    let chord_length = DoubleDouble::product(SPEED, DURATION) * half_turn.sinc();
+    let half_turn = DoubleDouble::product(0.5 * omega, ARC_DURATION);
+    let chord_length = DoubleDouble::product(SPEED, ARC_DURATION) * half_turn.sinc();
     let (sin, cos) = (DoubleDouble::from(theta) + half_turn).sin_cos();
     [chord_length * cos, chord_length * sin]
 }

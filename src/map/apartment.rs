@@ -2,7 +2,7 @@
 
 use crate::geom::segment::Segment;
 
-pub(super) const BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
+pub(super) const APARTMENT_BOUNDS: [f64; 4] = [0.0, 0.0, 12.0, 9.0];
 
 /// Walls of the apartment, m. They are constant data, because code that creates them one by one would take twice as many bytes.
 pub(super) static WALLS: [Segment; 18] = [

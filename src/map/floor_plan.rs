@@ -144,7 +144,7 @@ impl FloorPlan {
 
     /// Creates the plan of the apartment of Map Squeeze: 12 m × 9 m, 18 walls.
     pub fn apartment() -> Self {
-        Self::new(apartment::WALLS.to_vec(), apartment::BOUNDS)
+        Self::new(apartment::WALLS.to_vec(), apartment::APARTMENT_BOUNDS)
             .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
     }
 

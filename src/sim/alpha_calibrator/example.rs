@@ -15,7 +15,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::f64::consts::TAU;
 
 /// True parameters of the simulated log, which a calibration should find.
-pub const TRUTH: Truth = Truth {
+pub const TRUE_PARAMETERS: Truth = Truth {
     alphas: [0.05, 0.008, 0.004, 0.003],
     clock_offset: 0.15,
     mount_yaw: 0.07,
@@ -50,14 +50,14 @@ fn target_position(path_phase: f64) -> [f64; 2] {
     [1.35 * radius * libm::cos(path_phase), radius * libm::sin(path_phase)]
 }
 
-struct Controller {
+struct DriveController {
     /// Phase of the point that the robot follows, rad: see [`target_position`].
     phase: f64,
     remaining_turn: f64,
     next_turn_time: f64,
 }
 
-impl Controller {
+impl DriveController {
     /// Returns the speed (m/s) and turn rate (rad/s) of the robot at a time and estimated pose.
     fn next_speeds(&mut self, row_time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
         if row_time >= self.next_turn_time {
@@ -95,7 +95,7 @@ pub fn simulate_log(seed: u64) -> Drive {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
     let start_pose = SE2::new(x, y, 1.6);
-    let mut drive_controller = Controller { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
+    let mut drive_controller = DriveController { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry_poses = vec![(0.0, SE2::identity())];
     let mut true_poses = vec![(0.0, start_pose)];
     let mut current_leg = CurrentLeg {
@@ -111,9 +111,9 @@ pub fn simulate_log(seed: u64) -> Drive {
             drive_controller.next_speeds(row_time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
         let next_motion = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
         let odometry_twist = Vector3::new(
-            v * ROW_INTERVAL / TRUTH.distance_scale,
+            v * ROW_INTERVAL / TRUE_PARAMETERS.distance_scale,
             0.0,
-            omega * ROW_INTERVAL / TRUTH.turn_scale,
+            omega * ROW_INTERVAL / TRUE_PARAMETERS.turn_scale,
         );
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
         odometry_poses.push((row_time, odometry_pose));
@@ -153,7 +153,7 @@ pub fn simulate_log(seed: u64) -> Drive {
 /// Appends the true poses of a finished leg, and returns its true end pose. Each row adds an independent part of the noise. If the noise of
 /// a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
-    let [a1, a2, a3, a4] = TRUTH.alphas;
+    let [a1, a2, a3, a4] = TRUE_PARAMETERS.alphas;
     let row_motions = &leg.timed_motions[1..];
     let (_, leg_motion) = leg.timed_motions[row_motions.len()];
     let leg_reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
@@ -185,14 +185,14 @@ fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -
                 remaining_rows = ROWS_PER_JUMP;
             }
             let current_offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
-            let [lever_arm_ahead, lever_arm_left] = TRUTH.lever_arm;
-            let sensor_pose = *pose * SE2::new(lever_arm_ahead, lever_arm_left, TRUTH.mount_yaw);
+            let [lever_arm_ahead, lever_arm_left] = TRUE_PARAMETERS.lever_arm;
+            let sensor_pose = *pose * SE2::new(lever_arm_ahead, lever_arm_left, TRUE_PARAMETERS.mount_yaw);
             let measured_pose = SE2::new(
                 sensor_pose.x() + current_offset.x(),
                 sensor_pose.y() + current_offset.y(),
                 sensor_pose.theta(),
             );
-            (row_time + TRUTH.clock_offset, measured_pose)
+            (row_time + TRUE_PARAMETERS.clock_offset, measured_pose)
         })
         .collect()
 }

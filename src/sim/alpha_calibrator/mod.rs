@@ -160,7 +160,7 @@ impl AlphaCalibrator {
 
     /// Returns the true parameters, if the log is simulated. Its α's hold for the simulated leg length and odometry rule.
     pub fn truth(&self) -> Option<Truth> {
-        matches!(self.log_source, LogSource::Simulated).then_some(example::TRUTH)
+        matches!(self.log_source, LogSource::Simulated).then_some(example::TRUE_PARAMETERS)
     }
 
     /// Returns the legs of the log, drive by drive in the order of time.

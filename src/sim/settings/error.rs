@@ -42,8 +42,8 @@ impl SettingsError {
 
     fn format_message(&self) -> String {
         let allowed_text = match &self.allowed {
-            AllowedValues::Keyword { given_keyword: given, allowed } => {
-                return format!("{} is {given}; allowed is {allowed}", self.key);
+            AllowedValues::Keyword { given_keyword, allowed } => {
+                return format!("{} is {given_keyword}; allowed is {allowed}", self.key);
             }
             AllowedValues::Real(range) => {
                 format!("a number from {} to {}", format_number(*range.start()), format_number(*range.end()))

@@ -36,13 +36,13 @@ pub struct MapSqueeze {
     settings: Settings,
     noise_draws: Draws,
     tested_attempts: Vec<Attempt>,
-    outcome_tally: Tally,
+    outcome_tally: OutcomeTally,
     picture_pixels: Vec<[u8; 4]>,
 }
 
 /// Counts of the attempts shown that are accepted, or accepted through a wall, and the cost of all attempts shown.
 #[derive(Clone, Copy, Debug, Default)]
-struct Tally {
+struct OutcomeTally {
     total_cost: Cost,
     accepted_count: usize,
     through_wall: usize,
@@ -67,7 +67,7 @@ impl MapSqueeze {
             settings,
             noise_draws: Draws::new(settings.seed, NoiseKind::Normal),
             tested_attempts: Vec::new(),
-            outcome_tally: Tally::default(),
+            outcome_tally: OutcomeTally::default(),
             picture_pixels: Vec::new(),
         };
         simulation.reserve_memory(&settings)?;
@@ -132,7 +132,7 @@ impl MapSqueeze {
 
     fn clear_attempts(&mut self) {
         self.tested_attempts.clear();
-        self.outcome_tally = Tally::default();
+        self.outcome_tally = OutcomeTally::default();
     }
 
     /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make no attempts.
@@ -172,7 +172,7 @@ impl MapSqueeze {
 
     /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
-        let Tally { total_cost: cost, accepted_count, through_wall, gave_up } = self.outcome_tally;
+        let OutcomeTally { total_cost: cost, accepted_count, through_wall, gave_up } = self.outcome_tally;
         // The ratio is NaN for 0/0, and infinite for another number over 0.
         let ratio_of = |event_count: usize, total_count: usize| event_count as f64 / total_count as f64;
         Stats {

@@ -37,7 +37,7 @@ export async function measureStarts(browser, pageUrl, loadCount) {
 
 /** Marks the ends of stages that the page does not mark itself. Runs before the page's scripts. */
 function markStages() {
-  // The cloud is drawn once an image of its density or this number of dots is drawn.
+  // The cloud counts as drawn once an image of its density or this number of dots is drawn.
   const DOTS_OF_CLOUD = 100;
   let dotCount = 0;
   const { prototype: contextPrototype } = CanvasRenderingContext2D;
@@ -50,7 +50,7 @@ function markStages() {
       if (!(canvasRoot instanceof ShadowRoot) || canvasRoot.host.localName !== 'banana-machine') return;
       if ((methodName === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
-      // A message that the page sends to itself arrives after the current animation frame was handed to the screen.
+      // A message that the page sends to itself arrives after the current animation frame was handed to the screen, and so shown.
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => performance.mark('shown');
       port2.postMessage(undefined);

@@ -1,4 +1,4 @@
-// Measurements that run both in Node and in a page.
+// Measurements of the benchmark that run both in Node and in a page.
 
 import { Baseline } from './baseline.js';
 import { findDifferencesFromCore, unitNoiseOf } from './check.js';

@@ -15,7 +15,7 @@ const MAX_SUB_STEPS: u32 = 3;
 const MAX_CALLS: usize = 3;
 
 thread_local! {
-    /// Simulation in a room with one wall.
+    /// Simulation in a room with one wall, with which each input begins.
     static OPENING_SIMULATION: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let opening_wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let opening_plan = FloorPlan::new(vec![opening_wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");

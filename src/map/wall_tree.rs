@@ -120,7 +120,7 @@ impl WallTree {
             }
         }
         let capsule_axis = narrowest_capsule.1;
-        // No point of a wall is further from the capsule's axis than the further end of the wall.
+        // The point of a wall that is furthest from the capsule's axis is an end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let max_distance =
             wall_ends.map(|end| capsule_axis.squared_distance_to_point(end)).fold(0.0, f64::max).sqrt();

@@ -62,7 +62,7 @@ impl UnitMotionMoments {
         let mean_unit_end = [mean.x + x, mean.y + y, 0.0];
         let length_factors = [mean_length, mean_length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
-            // A deviation of the length moves the end position along u.
+            // Because L and u are independent, cov(L·u) = E[L]²·cov(u) + var(L)·E[u·uᵀ].
             let second_moment =
                 if i < 2 && j < 2 { unit_end_cov[(i, j)] + mean_unit_end[i] * mean_unit_end[j] } else { 0.0 };
             unit_end_cov[(i, j)] * length_factors[i] * length_factors[j]

@@ -44,8 +44,8 @@ impl ExponentialMoments {
     /// Returns the moments of ξ = pose ⊟ start of `poses`, which were all driven from the pose `start_pose`. They are NaN as in
     /// [`CartesianMoments::from_poses`].
     ///
-    /// The turn of each ξ is on the branch within π of the mean turn, so that poses on both sides of a half turn stay together. Elsewhere ξ
-    /// equals x_t ⊟ x_{t−1}.
+    /// The turn of each ξ is on the branch within π of the mean turn, so that poses on both sides of a half turn stay together. For other
+    /// clouds ξ equals x_t ⊟ x_{t−1}.
     pub fn from_poses(poses: &[SE2], start_pose: &SE2) -> Self {
         let mean_turn = wrap_angle(mean_heading(poses) - start_pose.theta());
         let start_inverse = start_pose.inverse();

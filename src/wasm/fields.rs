@@ -240,7 +240,7 @@ pub fn type_error(field: &str, js_value: &JsValue, allowed: &str) -> JsValue {
     TypeError::new(&format!("{field} is {}; allowed is {allowed}", describe_value(js_value))).into()
 }
 
-/// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.
+/// Maximum number of quoted characters of a value. They suffice to recognize a text, and no key or keyword is longer.
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
 fn shorten_text(original_text: &str) -> String {

@@ -65,7 +65,7 @@ pub struct AlphaCalibrator {
 enum LogSource {
     Simulated,
     Loaded(Vec<Drive>),
-    /// Log that is not known, because the fit comes from another simulation.
+    /// No log: the fit was saved by another simulation, which has the log.
     Restored,
 }
 

@@ -36,9 +36,9 @@ settings! {
         noise: NoiseKind = NoiseKind::Normal;
         /// Treatment of outliers, such as jumps of the reference: excluded, or fitted as noise.
         outliers: Outliers = Outliers::Reject;
-        /// Distance in x or in y of the odometry after which a leg ends: `update_min_d` of AMCL.
+        /// Distance by odometry, in x or in y, after which a leg ends: `update_min_d` of AMCL.
         distance: f64 = 0.25, "m", in 0.01..=100.0;
-        /// Rotation of the odometry after which a leg ends: `update_min_a` of AMCL.
+        /// Rotation by odometry after which a leg ends: `update_min_a` of AMCL.
         angle: f64 = 0.2, "rad", in 0.01..=3.0;
         /// Duration of a leg; 0 for legs that end after a distance or rotation.
         duration: f64 = 0.0, "s", in 0.0..=1e3;

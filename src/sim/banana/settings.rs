@@ -20,8 +20,8 @@ keywords!(NoiseKind: "normal" = Self::Normal, "triangular" = Self::Triangular);
 /// Maximum number of samples. They take 400 MB of the 4 GB that a browser allows a page.
 pub const MAX_SAMPLES: usize = 10_000_000;
 
-/// Initial number of samples. A device four times slower than a laptop computes and draws them within a frame. The standard
-/// error of the initial skew is 0.007.
+/// Initial number of samples. It is so large that the standard error of the initial skew is only 0.007, and so small that a device four
+/// times slower than a laptop computes and draws the samples within a frame.
 const INITIAL_SAMPLES: usize = 50_000;
 
 /// Seed whose initial cloud has, among the seeds 0 to 99, the area ratio and likelihood gain nearest to the exact values.

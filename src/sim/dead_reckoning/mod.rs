@@ -67,7 +67,7 @@ pub struct ByRecursion<T> {
     pub fourth_order: T,
 }
 
-/// Rows of a symmetric matrix.
+/// Covariance matrix as a list of its rows.
 pub type CovarianceRows = [[f64; 3]; 3];
 
 js_structs! {
@@ -248,7 +248,7 @@ impl DeadReckoning {
     pub fn commanded_path(&self) -> Vec<[f64; 2]> {
         let Settings { command: step_command, steps: step_count, .. } = self.settings;
         let twist = TangentNoiseModel::twist(&step_command);
-        // A chord of 0.1 rad deviates from its arc by 1/800 of its length.
+        // Chords of 0.1 rad look like the arc, because they deviate from it by 1/800 of their length.
         let chords_per_step = ((twist.z.abs() * 10.0).ceil() as usize).clamp(1, MAX_CHORDS);
         (0..=chords_per_step * step_count as usize)
             .map(|i| SE2::exp(&(twist * (i as f64 / chords_per_step as f64))).position())

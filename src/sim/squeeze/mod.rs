@@ -135,7 +135,7 @@ impl MapSqueeze {
         self.outcome_tally = OutcomeTally::default();
     }
 
-    /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make no attempts.
+    /// Makes attempts until `target_count` are shown, or gives up if nearly every draw collides. Later calls then make no attempts.
     fn show_samples(&mut self, target_count: usize) {
         self.noise_draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.noise_draws.extend_to(target_count);

@@ -39,7 +39,7 @@ fn new_start_poses() -> [SE2; 3] {
 
 #[test]
 fn prob_falls_off_as_the_noise_does() {
-    // At one standard deviation a Gaussian falls to exp(−1/2), and a triangular density to 1 − 1/√6.
+    // At one standard deviation, a Gaussian density is exp(−1/2) of its maximum, and a triangular density 1 − 1/√6.
     for (noise_kind, expected_ratio) in
         [(NoiseKind::Normal, (-0.5f64).exp()), (NoiseKind::Triangular, 1.0 - 1.0 / 6f64.sqrt())]
     {

@@ -208,8 +208,8 @@ fn degenerate_clouds_give_nan() {
     );
 }
 
-/// A width of the size of rounding counts as 0, even if robots drive forward and in reverse so that their mean is at the start. The lengths
-/// of the drives have a standard deviation of a millimetre.
+/// If the width of a cloud is of the size of rounding, it counts as 0, even if the mean is at the start because as many robots drive in
+/// reverse as forward.
 #[test]
 fn a_width_of_the_size_of_rounding_counts_as_zero() {
     const TINY_SPEED: f64 = 1e-6;
@@ -223,7 +223,7 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
         let poses: Vec<SE2> = simulation.poses().collect();
         [simulation.stats().cross_track_skew, CrossTrackStats::from_poses(&poses).skew]
     };
-    // The bearing is half the turn. The width of the cloud is therefore 5e-14 of its length.
+    // The bearing is half the turn, so that the width of the cloud is 5e-14 of its length.
     assert!(reported_and_plain_skew(1e-13).into_iter().all(f64::is_nan));
     let [reported_skew, plain_skew] = reported_and_plain_skew(1e-9);
     assert!(

@@ -130,7 +130,7 @@ function importLineOf(widgets) {
 /** Returns the text of the types of the elements by tag. @param {import('./declarations.mjs').Widget[]} widgets */
 function tagTypesOf(widgets) {
   const tagMapLines = widgets.map(({ tag: widgetTag, className }) => `    '${widgetTag}': ${className}Element;\n`);
-  const tagLines = widgets.map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
+  const tagTypeLines = widgets.map(({ tag: widgetTag, className, attributes, properties: elementProperties }) => {
     const propertyNames = [...attributes.map(({ name: attributeName, property: propertyName = attributeName }) => propertyName), ...elementProperties.filter(({ readonly }) => !readonly).map(({ name: propertyName }) => propertyName)];
     return `  '${widgetTag}': TemplateValues<${className}Element, ${unionTypeOf(propertyNames)}>;\n`;
   });
@@ -139,7 +139,7 @@ type TemplateValues<Element, Names extends keyof Element> = { [Name in Names]?: 
 
 /** Properties that a template (JSX, Vue, Svelte) can set on each element, by tag. */
 export interface FigureTags {
-${tagLines.join('')}}
+${tagTypeLines.join('')}}
 
 declare global {
   interface HTMLElementTagNameMap {

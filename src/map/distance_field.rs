@@ -38,7 +38,7 @@ const MAX_WALLS_PER_CELL: usize = 3;
 
 /// Accepted error of the distance from a block of cells to the nearest wall, as a fraction of half the block's diagonal. Walls closer
 /// together than this error are measured as one wall. A map whose walls fit into a single leaf of the wall tree is measured exactly.
-const RELATIVE_UNCERTAINTY: f64 = 0.125;
+const MAX_RELATIVE_ERROR: f64 = 0.125;
 
 const NOT_COMPUTED: f32 = f32::MIN;
 
@@ -144,7 +144,7 @@ impl<'a> FieldBuilder<'a> {
                 last_indices: [column_count, row_count]
                     .map(|cell_count_along_side| cell_count_along_side as f64 - 1.0),
                 cell_radius,
-                cell_uncertainty: if wall_tree.is_leaf(1) { 0.0 } else { RELATIVE_UNCERTAINTY * cell_radius },
+                cell_uncertainty: if wall_tree.is_leaf(1) { 0.0 } else { MAX_RELATIVE_ERROR * cell_radius },
                 lower_bounds: vec![NOT_COMPUTED; column_count * row_count],
             },
             row_count,
@@ -178,7 +178,7 @@ impl<'a> FieldBuilder<'a> {
         };
         if width > 1
             && min_distance
-                <= UNDIVIDED_DISTANCE_RATIO * block_radius + block_uncertainty / RELATIVE_UNCERTAINTY
+                <= UNDIVIDED_DISTANCE_RATIO * block_radius + block_uncertainty / MAX_RELATIVE_ERROR
         {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             let is_near = |(lower_bound, _): &&(f64, WallSet)| *lower_bound <= max_lower_bound;

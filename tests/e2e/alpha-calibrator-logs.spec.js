@@ -16,8 +16,8 @@ test('two tables of a user replace the simulated log, and a button restores the 
   const calibrator = await openCalibrator(page);
   const logTables = await simulatedTablesOf(calibrator);
   // The clock of the reference is an hour ahead.
-  const delayedTable = logTables.reference.replaceAll(/^\d+/gm, (secondsText) => `${Number(secondsText) + 3600}`);
-  await chooseTables(calibrator, { 'truth.csv': delayedTable, 'odom.csv': logTables.odometry });
+  const laterReferenceTable = logTables.reference.replaceAll(/^\d+/gm, (secondsText) => `${Number(secondsText) + 3600}`);
+  await chooseTables(calibrator, { 'truth.csv': laterReferenceTable, 'odom.csv': logTables.odometry });
   await waitUntilSettled(calibrator);
   expect(await captionOf(calibrator).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await calibrator.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();

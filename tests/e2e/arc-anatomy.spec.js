@@ -119,7 +119,7 @@ test('a narrow picture contains the whole wedge of the final turn', async ({ pag
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [wedgeEndX, plotRightX] = await widget.evaluate((element) => {
     const { pictures: [{ pictureView }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
-    return [pictureView.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], pictureView.plotArea.right];
+    return [pictureView.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], pictureView.plotArea.rightEdge];
   });
   expect(wedgeEndX).toBeLessThan(plotRightX);
 });

@@ -178,8 +178,8 @@ test('the caption explains the bow-tie shape of the preset Pivot, and claims no 
   const cloudSizeText = `a drive of ${mean[0].toFixed(2)} m by ${Math.sqrt(cov[0][0]).toFixed(2)} m, ahead of the start and behind it`;
   await expect(captionOf(widget)).toContainText(cloudSizeText);
   expect(Math.abs(resultTable.exact.crossTrackSkew)).toBeGreaterThan(0.01);
-  const behindCount = (await readPoses(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
-  expect(behindCount / figureConfig.samples).toBeGreaterThan(0.3);
+  const behindStartCount = (await readPoses(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
+  expect(behindStartCount / figureConfig.samples).toBeGreaterThan(0.3);
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');

@@ -68,16 +68,16 @@ test('the keys Home and End set v to the ends of its range, and no key of the ha
 test('where the range of a slider ends, the handle shows and speaks that the sliders end', async ({ page }) => {
   const widget = await openBanana(page);
   const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
-  const readHint = () => arcEndHandle.evaluate((element) => getComputedStyle(element, '::before').content);
+  const readHandleHint = () => arcEndHandle.evaluate((element) => getComputedStyle(element, '::before').content);
   await widget.evaluate((element) => void Object.assign(element, { v: 1.49, omega: 0 }));
   await arcEndHandle.press('ArrowLeft');
   await expect(arcEndHandle).toHaveAttribute('aria-valuetext', /m\/s, ω = −?0\.00 rad\/s$/);
-  expect(await readHint()).toBe('none');
+  expect(await readHandleHint()).toBe('none');
   for (let i = 0; i < 3; i++) await arcEndHandle.press('ArrowRight');
   await expect(arcEndHandle).toHaveAttribute('aria-valuetext', /^v = 1\.50 m\/s, .* rad\/s\. The sliders end here$/);
-  expect(await readHint()).toBe('"The sliders end here"');
+  expect(await readHandleHint()).toBe('"The sliders end here"');
   await arcEndHandle.blur();
-  expect(await readHint()).toBe('none');
+  expect(await readHandleHint()).toBe('none');
 });
 
 test('clicks and keys in the skew chart set ω', async ({ page }) => {

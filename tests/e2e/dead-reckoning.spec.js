@@ -17,7 +17,7 @@ async function openDeadReckoning(page, attributes) {
 /** @param {Locator} widget */
 const readConfig = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.config);
 const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
-const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
+const ratioPlotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
 /**
  * Returns a text such as "steps 15–20" for each variance. It names the steps at which the predicted variance is wrong by more than 5 %.
@@ -43,7 +43,7 @@ test('the figure opens with the chapter’s error of 6 % along the track, and st
   expect(await readMissedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /: 2\.00 s$/);
   await expect(widget.getByRole('row', { name: 'along the track, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
-  await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along the track 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
+  await expect(ratioPlotOf(widget)).toHaveAttribute('aria-label', /At step 20: along the track 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvasClass, colorRole] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
     expect(await countPixelsOfRole(widget.locator(`canvas.${canvasClass}`), colorRole), `${colorRole} in ${canvasClass}`).toBeGreaterThan(10);
   }
@@ -66,7 +66,7 @@ test('the line in the chart selects a step by pointer or keyboard, and starts no
   await stepSlider.press('Home');
   await waitForFrames(page);
   await expect(widget.locator('canvas.twist')).toHaveAttribute('aria-label', 'Step 1 in exponential coordinates');
-  await expect(plotOf(widget)).toContainText('step 1');
+  await expect(ratioPlotOf(widget)).toContainText('step 1');
   await dragSlider(stepSlider, 0.5);
   await waitForFrames(page);
   expect((await readConfig(widget)).step).toBe(10);
@@ -86,12 +86,12 @@ test('with the right Jacobian J_r and fourth-order terms, every predicted varian
 test('entries of the legends show and hide curves and outlines', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'overlays="lateral tolerance measured exponential"');
   await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, the lateral one is /);
-  await expect(plotOf(widget).locator('path.curve, circle')).toHaveCount(2);
+  await expect(ratioPlotOf(widget).locator('path.curve, circle')).toHaveCount(2);
   const twistPicture = await readPicture(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();
   await widget.getByRole('checkbox', { name: 'lateral' }).uncheck();
   await expect(widget).toHaveAttribute('overlays', 'tolerance exponential');
-  await expect(plotOf(widget).locator('path.curve, circle')).toHaveCount(0);
+  await expect(ratioPlotOf(widget).locator('path.curve, circle')).toHaveCount(0);
   await waitForFrames(page);
   expect(await readPicture(widget.locator('canvas.twist'))).not.toBe(twistPicture);
 });
@@ -145,7 +145,7 @@ test('with too few robots no step is judged, and without robots the caption says
 test('without noise, or if fourth-order terms leave no valid covariance, the figure shows no ratio @nightly', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
   await expect(captionOf(widget)).toHaveText(/^No noise:/);
-  await expect(plotOf(widget)).toHaveAttribute('aria-label', /along the track —/);
+  await expect(ratioPlotOf(widget)).toHaveAttribute('aria-label', /along the track —/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 60, compounding: 'fourth-order', step: 20 }));
   await waitUntilSettled(widget);
   await expect(captionOf(widget)).toHaveText(/gives no valid covariance/);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, holdRequests, waitForFrames, readProperty, showPage, test, waitUntilReady } from './support.js';
+import { REDUCED_MOTION, holdBackRequests, waitForFrames, readProperty, showPage, test, waitUntilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -48,7 +48,7 @@ for (const [sideOfFigure, originSelector, tabKey] of /** @type {const} */ ([['ab
 }
 
 test('a starting figure does not take the focus that the user has meanwhile moved elsewhere @nightly', async ({ page, figureName }) => {
-  const allowModule = await holdRequests(page, '**/*.wasm');
+  const allowModule = await holdBackRequests(page, '**/*.wasm');
   const widget = await showFigureFarBelow(page, figureName);
   const moduleRequest = page.waitForRequest(/\.wasm$/);
   await page.locator('#before').focus();

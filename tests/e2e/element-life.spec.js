@@ -385,7 +385,7 @@ test('removed figures free their memory, observers and DOM nodes @nightly', NEW_
     }
   };
   /** Counts the living objects of some classes after a garbage collection. */
-  const countObjects = async () => {
+  const countPageObjects = async () => {
     await cdpSession.send('HeapProfiler.collectGarbage');
     /** @type {Record<string, number>} */
     const objectCounts = {};
@@ -403,10 +403,10 @@ test('removed figures free their memory, observers and DOM nodes @nightly', NEW_
   };
   await mountAndRemove(2);
   // The JavaScript engine may keep the latest object of a class for a while.
-  await expect.poll(async () => (await countObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
-  const objectsBefore = await countObjects();
+  await expect.poll(async () => (await countPageObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
+  const objectCountBefore = await countPageObjects();
   await mountAndRemove(20);
-  await expect.poll(async () => (await countObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
-  const objectsAfter = await countObjects();
-  for (const [className, objectCount] of Object.entries(objectsAfter)) expect.soft(objectCount - objectsBefore[className], className).toBeLessThanOrEqual(2);
+  await expect.poll(async () => (await countPageObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
+  const objectCountAfter = await countPageObjects();
+  for (const [className, objectCount] of Object.entries(objectCountAfter)) expect.soft(objectCount - objectCountBefore[className], className).toBeLessThanOrEqual(2);
 });

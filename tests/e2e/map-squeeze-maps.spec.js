@@ -80,15 +80,15 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   const planeCanvas = widget.locator('canvas.plane');
   const unknownCellsChoice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
   await expect(unknownCellsChoice.getByLabel('free')).toBeChecked();
-  const resultsIfFree = await readSqueezeResults(widget);
-  const pictureIfFree = await readPicture(planeCanvas);
+  const resultsIfUnknownFree = await readSqueezeResults(widget);
+  const pictureIfUnknownFree = await readPicture(planeCanvas);
   await unknownCellsChoice.getByLabel('blocked').check();
-  const resultsIfBlocked = await readSqueezeResults(widget);
-  expect(resultsIfBlocked.config.unknown).toBe('blocked');
-  expect(resultsIfBlocked.poses).toEqual(resultsIfFree.poses);
-  expect(resultsIfBlocked.stats.accepted).toBeLessThan(resultsIfFree.stats.accepted);
-  expect(resultsIfBlocked.walls.length).toBeGreaterThan(resultsIfFree.walls.length);
-  expect(await readPicture(planeCanvas)).not.toBe(pictureIfFree);
+  const resultsIfUnknownBlocked = await readSqueezeResults(widget);
+  expect(resultsIfUnknownBlocked.config.unknown).toBe('blocked');
+  expect(resultsIfUnknownBlocked.poses).toEqual(resultsIfUnknownFree.poses);
+  expect(resultsIfUnknownBlocked.stats.accepted).toBeLessThan(resultsIfUnknownFree.stats.accepted);
+  expect(resultsIfUnknownBlocked.walls.length).toBeGreaterThan(resultsIfUnknownFree.walls.length);
+  expect(await readPicture(planeCanvas)).not.toBe(pictureIfUnknownFree);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
   // A state contains the map and the setting for unknown cells. `setState` restores the map and this setting.
@@ -97,7 +97,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   await expect(unknownCellsChoice).toHaveCount(0);
   await widget.evaluate((element, stateText) => /** @type {any} */ (element).setState(JSON.parse(stateText)), stateJson);
   await expect(unknownCellsChoice.getByLabel('blocked')).toBeChecked();
-  expect(await readSqueezeResults(widget)).toEqual(resultsIfBlocked);
+  expect(await readSqueezeResults(widget)).toEqual(resultsIfUnknownBlocked);
 });
 
 test('a floor plan can be typed into a text field', async ({ page }) => {

@@ -26,11 +26,11 @@ test('the views contain the arcs of the turns and nearly all sampled poses', asy
   await waitForFrames(page);
   const viewMeasures = await widget.evaluate((element) => {
     const { pictures: figurePictures, scene: drawnScene } = /** @type {any} */ (element);
-    const outsideCounts = figurePictures.map((/** @type {any} */ { pictureView: { shownExtent: extent } }) => Array.from({ length: drawnScene.poses.length / 3 }, (_, i) => drawnScene.poses.subarray(3 * i, 3 * i + 2))
+    const outsidePoseCounts = figurePictures.map((/** @type {any} */ { pictureView: { shownExtent: extent } }) => Array.from({ length: drawnScene.poses.length / 3 }, (_, i) => drawnScene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
     // `pixelsBelow` is the space below the end of the drive. A half turn at that end is drawn as a ring with a radius of about 64 pixels.
     const { pictureView } = figurePictures[0];
-    return { outsideCounts, pixelsBelow: pictureView.plotArea.bottom - pictureView.toPixelY(drawnScene.linkage[7]) };
+    return { outsideCounts: outsidePoseCounts, pixelsBelow: pictureView.plotArea.bottomEdge - pictureView.toPixelY(drawnScene.linkage[7]) };
   });
   expect(Math.max(...viewMeasures.outsideCounts)).toBeLessThanOrEqual(1);
   expect(viewMeasures.pixelsBelow).toBeGreaterThan(64);

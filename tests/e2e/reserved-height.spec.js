@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, readBox, holdRequests, waitForFrames, mountFigure, showPage, test, testEach, waitUntilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, readBox, holdBackRequests, waitForFrames, mountFigure, showPage, test, testEach, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -12,7 +12,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
     headHtml: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     scriptHtml: '<script type="module" src="/external.js"></script>',
   });
-  const allowScript = await holdRequests(page, '**/chunks/**');
+  const allowScript = await holdBackRequests(page, '**/chunks/**');
   await page.evaluate((widgetTag) => document.body.append(document.createElement(widgetTag)), figureName);
   const widget = page.locator(figureName);
   const readHeightsInEm = async () => {
@@ -41,7 +41,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
 }, NEW_PAGE_TAG);
 
 test('with a title and a caption, loading the script does not move the text below the figure', async ({ page }) => {
-  const allowScript = await holdRequests(page, '**/motion-widgets.js');
+  const allowScript = await holdBackRequests(page, '**/motion-widgets.js');
   const pageBody = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
   const pageOpening = showPage(page, pageBody, { headHtml: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const textBelow = page.locator('#after');

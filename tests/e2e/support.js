@@ -207,7 +207,7 @@ export function readState(widget) {
 }
 
 /** Holds requests of a page until the returned function is called. @param {Page} page @param {string} addressPattern */
-export async function holdRequests(page, addressPattern) {
+export async function holdBackRequests(page, addressPattern) {
   let allowRequests = () => {};
   const permissionPromise = new Promise((resolve) => (allowRequests = () => resolve(undefined)));
   await page.route(addressPattern, async (route) => {

@@ -114,11 +114,11 @@ async function checkFirstLoad(page, servedSite) {
  *
  * @param {Page} page
  * @param {Site} servedSite
- * @param {'figuresPath' | 'otherPath'} linkKind
+ * @param {'figuresPath' | 'otherPath'} pathKey
  */
-async function followLink(page, { definition: platformDefinition }, linkKind) {
-  await platformDefinition.goToPage?.(page, platformDefinition.pages[linkKind] ?? linkKind);
-  await page.locator(platformDefinition.expectedFigures[0].selector).waitFor({ state: linkKind === 'figuresPath' ? 'attached' : 'detached' });
+async function followLink(page, { definition: platformDefinition }, pathKey) {
+  await platformDefinition.goToPage?.(page, platformDefinition.pages[pathKey] ?? pathKey);
+  await page.locator(platformDefinition.expectedFigures[0].selector).waitFor({ state: pathKey === 'figuresPath' ? 'attached' : 'detached' });
 }
 
 /** Follows a link away from the figures, and a link back to them. @type {(page: Page, site: Site) => Promise<void>} */

@@ -154,7 +154,7 @@ function createTools(projectDirectory, toolEnvironment) {
 }
 
 /** Names of files and directories in the copy of an example that are kept between runs. */
-const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
+const KEPT_FOLDER_NAMES = ['node_modules', '.venv', '.installed'];
 
 /**
  * Makes a fresh copy of a platform's example with the package installed. The installation is kept until the pinned versions or the package
@@ -169,9 +169,9 @@ export async function prepareExample(platformName, platformDefinition) {
   const exampleTools = createTools(projectDirectory, { ...SILENT_ENVIRONMENT, ...(await ensureNode(platformDefinition)) });
   mkdirSync(projectDirectory, { recursive: true });
   for (const entryName of readdirSync(projectDirectory)) {
-    if (!KEPT_NAMES.includes(entryName)) rmSync(join(projectDirectory, entryName), { recursive: true });
+    if (!KEPT_FOLDER_NAMES.includes(entryName)) rmSync(join(projectDirectory, entryName), { recursive: true });
   }
-  cpSync(exampleDirectory, projectDirectory, { recursive: true, filter: (filePath) => !KEPT_NAMES.includes(basename(filePath)) });
+  cpSync(exampleDirectory, projectDirectory, { recursive: true, filter: (filePath) => !KEPT_FOLDER_NAMES.includes(basename(filePath)) });
   const packagePaths = { npmTarball: await packNpmPackage(), pythonWheel: platformDefinition.usesPython ? await buildPythonWheel() : '' };
   const versionFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((filePath) => existsSync(filePath));
   const packageHash = createHash('sha256');

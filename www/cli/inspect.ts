@@ -55,7 +55,7 @@ async function contentsOf(recording: Recording, typedArgs: string[], onProgress?
 export function formatInspection({ inspection: { recordings, command: calibrateCommand }, sentences, isUsable }: Awaited<ReturnType<typeof inspectInputs>>): string {
   const recordingLines = recordings.flatMap(({ name: recordingName, format: recordingFormat, series }) => {
     const tableRows = series.map(({ name: seriesName, type: messageType, rows: count, uses: possibleRoles, summary: logSummary }) => [seriesName || '(all columns)', recordingFormat === 'csv' ? truncate(messageType) : messageType, String(count || ''), logSummary ? `${logSummary.rate.toPrecision(3)} Hz` : '', possibleRoles.join(' or ')]);
-    const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((sentenceLine, i) => (i > 0 ? `  ${sentenceLine}` : seriesName ? `${seriesName}: ${sentenceLine}` : sentenceLine)));
+    const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((summarySentence, i) => (i > 0 ? `  ${summarySentence}` : seriesName ? `${seriesName}: ${summarySentence}` : summarySentence)));
     return [`${recordingName}: ${FORMAT_NAMES[recordingFormat]}`, ...[...alignRows([[recordingFormat === 'csv' ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((reportLine) => `  ${reportLine}`)];
   });
   return [...recordingLines, ...(isUsable ? sentences : []), ...(calibrateCommand ? ['', `  ${calibrateCommand}`] : []), ''].join('\n');

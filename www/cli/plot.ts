@@ -37,7 +37,7 @@ function createDrivePanel({ odometry: odometryLog, reference: referenceLog }: Lo
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
   const referencePoseAt = (odometryTime: number) => poseAt(referencePath, odometryTime + clockOffset);
 
-  const plotView = new PictureView({ left: 56, top: TOP_MARGIN });
+  const plotView = new PictureView({ leftMargin: 56, topMargin: TOP_MARGIN });
   plotView.setSize(PANEL_WIDTH, PANEL_HEIGHT);
   plotView.fitExtent(extentOf([...referencePath.poses, ...odometryPath.poses].flatMap(([x, y]) => [x, y]), 0.1));
   const svgContext = new SvgContext(idPrefix);

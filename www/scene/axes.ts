@@ -16,32 +16,32 @@ const LEGEND_LENGTHS_EM = { entryGap: 0.8, lineSampleWidth: 1.5, nameGap: 0.35 }
  */
 export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: string }, legendEntries: LegendEntry[] = [], gridOpacity: number = 0.5) {
   const { canvasContext, pictureView, palette, font } = drawContext;
-  const { left, right, top, bottom } = pictureView.plotArea;
+  const { leftEdge, rightEdge, topEdge, bottomEdge } = pictureView.plotArea;
   const { xMin, xMax, yMin, yMax } = pictureView.shownExtent;
   const drawHairline = (opacity: number, ...pixelPoints: number[][]) => paintWithOpacity(canvasContext, opacity, () => strokeLine(canvasContext, pixelPoints, { colour: palette.rule, width: 1 }));
 
-  const xTicks = ticksOfAxis(axisNames.x, xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
+  const xTicks = ticksOfAxis(axisNames.x, xMin, xMax, (rightEdge - leftEdge) / MIN_TICK_SPACING.x);
   Object.assign(canvasContext, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the x axis is at its right end, where it replaces tick labels.
-  const maxLabelX = right - canvasContext.measureText(xTicks.axisName).width - 10;
+  const maxLabelX = rightEdge - canvasContext.measureText(xTicks.axisName).width - 10;
   for (const tickValue of xTicks.tickValues) {
     const x = Math.round(pictureView.toPixelX(tickValue)) + 0.5;
-    drawHairline(gridOpacity, [x, top], [x, bottom]);
+    drawHairline(gridOpacity, [x, topEdge], [x, bottomEdge]);
     const tickLabel = xTicks.formatLabel(tickValue);
-    if (x + canvasContext.measureText(tickLabel).width / 2 < maxLabelX) canvasContext.fillText(tickLabel, x, bottom + 6);
+    if (x + canvasContext.measureText(tickLabel).width / 2 < maxLabelX) canvasContext.fillText(tickLabel, x, bottomEdge + 6);
   }
-  const yTicks = ticksOfAxis(axisNames.y, yMin, yMax, (bottom - top) / MIN_TICK_SPACING.y);
+  const yTicks = ticksOfAxis(axisNames.y, yMin, yMax, (bottomEdge - topEdge) / MIN_TICK_SPACING.y);
   Object.assign(canvasContext, { textAlign: 'right', textBaseline: 'middle' });
   for (const tickValue of yTicks.tickValues) {
     const y = Math.round(pictureView.toPixelY(tickValue)) + 0.5;
-    drawHairline(gridOpacity, [left, y], [right, y]);
-    canvasContext.fillText(yTicks.formatLabel(tickValue), left - 6, y);
+    drawHairline(gridOpacity, [leftEdge, y], [rightEdge, y]);
+    canvasContext.fillText(yTicks.formatLabel(tickValue), leftEdge - 6, y);
   }
 
-  drawHairline(1, [left, bottom + 0.5], [right, bottom + 0.5]);
-  drawHairline(1, [left - 0.5, top], [left - 0.5, bottom]);
+  drawHairline(1, [leftEdge, bottomEdge + 0.5], [rightEdge, bottomEdge + 0.5]);
+  drawHairline(1, [leftEdge - 0.5, topEdge], [leftEdge - 0.5, bottomEdge]);
   Object.assign(canvasContext, { font: `italic ${font}`, textBaseline: 'top' });
-  canvasContext.fillText(xTicks.axisName, right, bottom + 6);
+  canvasContext.fillText(xTicks.axisName, rightEdge, bottomEdge + 6);
   canvasContext.textAlign = 'left';
   drawLegend(drawContext, yTicks.axisName, legendEntries);
 }
@@ -52,7 +52,7 @@ export type LegendEntry = LineStroke & Pick<LineStyle, 'shape'> & { name: string
 function drawLegend(drawContext: DrawContext, axisName: string, legendEntries: LegendEntry[]) {
   const { canvasContext, pictureView, palette, font } = drawContext;
   const fontSize = parseFloat(font);
-  const y = pictureView.plotArea.top - 22;
+  const y = pictureView.plotArea.topEdge - 22;
   canvasContext.fillText(axisName, 2, y);
   let entryEnd = 2 + canvasContext.measureText(axisName).width;
   Object.assign(canvasContext, { font, fillStyle: palette.ink });
@@ -77,10 +77,10 @@ function drawSwatch({ canvasContext }: DrawContext, { shape: swatchShape, ...lin
 
 /** Clips what `paintContents` draws to the plot area. */
 export function clipToPlot({ canvasContext, pictureView }: DrawContext, paintContents: () => void) {
-  const { left, right, top, bottom } = pictureView.plotArea;
+  const { leftEdge, rightEdge, topEdge, bottomEdge } = pictureView.plotArea;
   canvasContext.save();
   canvasContext.beginPath();
-  canvasContext.rect(left, top, right - left, bottom - top);
+  canvasContext.rect(leftEdge, topEdge, rightEdge - leftEdge, bottomEdge - topEdge);
   canvasContext.clip();
   paintContents();
   canvasContext.restore();

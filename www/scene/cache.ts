@@ -71,8 +71,8 @@ export class CachedImage {
       Object.assign(this.#canvas, { width: columnCount, height: rowCount });
       createHiddenContext(this.#canvas).putImageData(new ImageData(rgbaPixels, columnCount, rowCount), 0, 0);
     });
-    const { left, right, top, bottom } = pictureView.plotArea;
-    canvasContext.drawImage(this.#canvas, left, top, right - left, bottom - top);
+    const { leftEdge, rightEdge, topEdge, bottomEdge } = pictureView.plotArea;
+    canvasContext.drawImage(this.#canvas, leftEdge, topEdge, rightEdge - leftEdge, bottomEdge - topEdge);
   }
 
   /**
@@ -83,9 +83,9 @@ export class CachedImage {
    * @param computePixels returns the pixels of the density in a part of the plane, whose bounds are xMin, yMin, xMax and yMax
    */
   drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (worldBounds: number[], columnCount: number, rowCount: number) => Uint8ClampedArray<ArrayBuffer>) {
-    const { left, right, top, bottom } = drawContext.pictureView.plotArea;
+    const { leftEdge, rightEdge, topEdge, bottomEdge } = drawContext.pictureView.plotArea;
     const { xMin, yMin, xMax, yMax } = drawContext.pictureView.shownExtent;
-    const [columnCount, rowCount] = [right - left, bottom - top].map((sideLength) => Math.max(1, Math.round(sideLength / cellSide)));
+    const [columnCount, rowCount] = [rightEdge - leftEdge, bottomEdge - topEdge].map((sideLength) => Math.max(1, Math.round(sideLength / cellSide)));
     this.drawImage(drawContext, [...cacheKey, xMin, yMin, xMax, yMax, columnCount, rowCount], () => ({ rgbaPixels: computePixels([xMin, yMin, xMax, yMax], columnCount, rowCount), columnCount }));
   }
 }

@@ -73,7 +73,7 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
   const { canvasContext, pictureView, palette, placedBoxes } = drawContext;
   const [centreX, centreY] = pictureView.toPixel(...shapeCentre);
   const avoidedPoints = [...callouts.map(({ point: anchorPoint }): number[] => pictureView.toPixel(...anchorPoint)), ...avoidedLines.filter(({ length }) => length > 0).flatMap((avoidedLine) => sampleLine(pictureView.toPixels(avoidedLine)))];
-  const { left, right, top, bottom } = pictureView.plotArea;
+  const { leftEdge, rightEdge, topEdge, bottomEdge } = pictureView.plotArea;
   for (const { point: anchorPoint, colour: textColour = palette.ink, text: labelText = '', ...symbolAndSubscript } of callouts) {
     const textLines = labelText.split('\n').map((textLine, i) => measureTextParts(drawContext, { text: textLine, ...(i === 0 && symbolAndSubscript) }));
     const halfWidth = Math.max(...textLines.map(totalWidthOf)) / 2 + TEXT_MARGIN;
@@ -86,8 +86,8 @@ export function drawCallouts(drawContext: DrawContext, callouts: Callout[], { sh
       if (positionCost >= bestBox.cost) break;
       const [idealX, idealY] = [x + (leaderLength + halfWidth) * Math.cos(outwardAngle + leaderAngle), y + (leaderLength + halfHeight) * Math.sin(outwardAngle + leaderAngle)];
       const textBox = {
-        x: clampNumber(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
-        y: clampNumber(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
+        x: clampNumber(idealX, leftEdge + halfWidth, Math.max(leftEdge + halfWidth, rightEdge - halfWidth)),
+        y: clampNumber(idealY, topEdge + halfHeight, Math.max(topEdge + halfHeight, bottomEdge - halfHeight)),
         halfWidth, halfHeight,
       };
       const totalCost = positionCost + maxOverlapOf(textBox, avoidedPoints, placedBoxes);

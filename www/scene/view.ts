@@ -34,22 +34,22 @@ export class PictureView {
   width = 1;
   height = 1;
   /** Part of the canvas inside the axes, CSS pixels. */
-  plotArea = { left: 0, top: 0, right: 1, bottom: 1 };
+  plotArea = { leftEdge: 0, topEdge: 0, rightEdge: 1, bottomEdge: 1 };
   #plotMargins;
 
   /** @param relativeMargin margin around the content, relative to its size. The other margins are those of the plot area in CSS pixels */
-  constructor({ hasEqualScales = true, relativeMargin = 0.06, left = 42, right = 8, top = 24, bottom = 30 } = {}) {
+  constructor({ hasEqualScales = true, relativeMargin = 0.06, leftMargin = 42, rightMargin = 8, topMargin = 24, bottomMargin = 30 } = {}) {
     this.#hasEqualScales = hasEqualScales;
     this.#relativeMargin = relativeMargin;
-    this.#plotMargins = { left, right, top, bottom };
+    this.#plotMargins = { leftMargin, rightMargin, topMargin, bottomMargin };
   }
 
   setSize(width: number, height: number) {
     if (width === this.width && height === this.height) return;
     this.width = width;
     this.height = height;
-    const { left, right, top, bottom } = this.#plotMargins;
-    this.plotArea = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
+    const { leftMargin, rightMargin, topMargin, bottomMargin } = this.#plotMargins;
+    this.plotArea = { leftEdge: leftMargin, topEdge: topMargin, rightEdge: Math.max(leftMargin + 1, width - rightMargin), bottomEdge: Math.max(topMargin + 1, height - bottomMargin) };
     if (this.#requiredExtent) this.shownExtent = this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
     // Marks have a fixed size in pixels, so that on a small canvas they need a view with more metres. A canvas is small before the layout is finished. The view may zoom in again when the canvas grows.
     this.allowZoomIn();
@@ -71,36 +71,36 @@ export class PictureView {
 
   /** Pixels per unit of x. With equal scales, `scaleY` has the same value. */
   get scaleX() {
-    return (this.plotArea.right - this.plotArea.left) / (this.shownExtent.xMax - this.shownExtent.xMin);
+    return (this.plotArea.rightEdge - this.plotArea.leftEdge) / (this.shownExtent.xMax - this.shownExtent.xMin);
   }
 
   get scaleY() {
-    return (this.plotArea.bottom - this.plotArea.top) / (this.shownExtent.yMax - this.shownExtent.yMin);
+    return (this.plotArea.bottomEdge - this.plotArea.topEdge) / (this.shownExtent.yMax - this.shownExtent.yMin);
   }
 
   /** Returns the scale (pixels per metre) at which a part of the world fits into the view with a margin in pixels. */
   fittingScaleOf({ xMin, yMin, xMax, yMax }: WorldExtent, pixelMargin = 0) {
-    const { left, right, top, bottom } = this.plotArea;
-    return Math.min((right - left - 2 * pixelMargin) / (xMax - xMin), (bottom - top - 2 * pixelMargin) / (yMax - yMin));
+    const { leftEdge, rightEdge, topEdge, bottomEdge } = this.plotArea;
+    return Math.min((rightEdge - leftEdge - 2 * pixelMargin) / (xMax - xMin), (bottomEdge - topEdge - 2 * pixelMargin) / (yMax - yMin));
   }
 
   /** Returns the length (m) of a mark that is `pixelLength` long, if the view fits the extent and the mark. A mark takes at most a quarter of the view. */
   markLengthOf(worldExtent: WorldExtent, pixelLength: number) {
-    const { left, right, top, bottom } = this.plotArea;
-    const pixelMargin = Math.min(pixelLength, (right - left) / 4, (bottom - top) / 4);
+    const { leftEdge, rightEdge, topEdge, bottomEdge } = this.plotArea;
+    const pixelMargin = Math.min(pixelLength, (rightEdge - leftEdge) / 4, (bottomEdge - topEdge) / 4);
     return pixelMargin / this.fittingScaleOf(worldExtent, pixelMargin);
   }
 
   toPixelX(x: number) {
-    return this.plotArea.left + (x - this.shownExtent.xMin) * this.scaleX;
+    return this.plotArea.leftEdge + (x - this.shownExtent.xMin) * this.scaleX;
   }
 
   toPixelY(y: number) {
-    return this.plotArea.bottom - (y - this.shownExtent.yMin) * this.scaleY;
+    return this.plotArea.bottomEdge - (y - this.shownExtent.yMin) * this.scaleY;
   }
 
   toWorld(x: number, y: number): [x: number, y: number] {
-    return [this.shownExtent.xMin + (x - this.plotArea.left) / this.scaleX, this.shownExtent.yMin + (this.plotArea.bottom - y) / this.scaleY];
+    return [this.shownExtent.xMin + (x - this.plotArea.leftEdge) / this.scaleX, this.shownExtent.yMin + (this.plotArea.bottomEdge - y) / this.scaleY];
   }
 
   /** Returns a step of one pixel in the direction of a heading (rad), for equal scales of x and y. */
@@ -156,8 +156,8 @@ export class PictureView {
 
   /** Returns an extent that contains `requiredExtent`, moved into the limits. With equal scales it has the aspect ratio of the plot area. */
   #findCoveringExtent(requiredExtent: WorldExtent) {
-    const { left, right, top, bottom } = this.plotArea;
-    const aspectRatio = (bottom - top) / (right - left);
+    const { leftEdge, rightEdge, topEdge, bottomEdge } = this.plotArea;
+    const aspectRatio = (bottomEdge - topEdge) / (rightEdge - leftEdge);
     const [requiredWidth, requiredHeight] = [requiredExtent.xMax - requiredExtent.xMin, requiredExtent.yMax - requiredExtent.yMin];
     const width = this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth;
     const height = this.#hasEqualScales ? width * aspectRatio : requiredHeight;

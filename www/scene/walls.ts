@@ -81,16 +81,16 @@ export function cellCornerOf({ resolution: cellSide, origin: [x, y, yaw] }: Cell
  */
 function fillCells({ canvasContext, pictureView, pixelRatio }: LayerDrawContext, cellGrid: CellGrid, cellValues: Uint8Array, cellColour: string) {
   const cellsPerSquare = Math.max(1, Math.floor(1 / (cellGrid.resolution * pictureView.scaleX * pixelRatio)));
-  const [left, bottom, right, top] = findVisibleCellRange(pictureView, cellGrid, cellsPerSquare);
-  const [width, height] = [Math.ceil((right - left) / cellsPerSquare), Math.ceil((top - bottom) / cellsPerSquare)];
+  const [firstColumn, firstRow, endColumn, endRow] = findVisibleCellRange(pictureView, cellGrid, cellsPerSquare);
+  const [width, height] = [Math.ceil((endColumn - firstColumn) / cellsPerSquare), Math.ceil((endRow - firstRow) / cellsPerSquare)];
   if (width < 1 || height < 1) return;
   const squaresImage = new ImageData(width, height);
   const squarePixels = new Uint32Array(squaresImage.data.buffer);
   const [pixelColour] = new Uint32Array(Uint8Array.of(...colourChannelsOf(cellColour), 255).buffer);
-  for (let cellRow = bottom; cellRow < top; cellRow++) {
-    const rowEnd = cellRow * cellGrid.columns + right;
-    let pixelIndex = Math.floor((cellRow - bottom) / cellsPerSquare) * width;
-    for (let i = cellRow * cellGrid.columns + left; i < rowEnd; pixelIndex++) {
+  for (let cellRow = firstRow; cellRow < endRow; cellRow++) {
+    const rowEnd = cellRow * cellGrid.columns + endColumn;
+    let pixelIndex = Math.floor((cellRow - firstRow) / cellsPerSquare) * width;
+    for (let i = cellRow * cellGrid.columns + firstColumn; i < rowEnd; pixelIndex++) {
       for (const squareEnd = Math.min(i + cellsPerSquare, rowEnd); i < squareEnd; i++) if (cellValues[i]) squarePixels[pixelIndex] = pixelColour;
     }
   }
@@ -98,7 +98,7 @@ function fillCells({ canvasContext, pictureView, pixelRatio }: LayerDrawContext,
   createHiddenContext(squaresCanvas).putImageData(squaresImage, 0, 0);
   const cornerPixelOf = (cellColumn: number, cellRow: number) => pictureView.toPixel(...cellCornerOf(cellGrid, cellColumn, cellRow));
   // The first row of the image is the lowest one, as in the grid.
-  const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixelOf(left, bottom), cornerPixelOf(left + cellsPerSquare, bottom), cornerPixelOf(left, bottom + cellsPerSquare)];
+  const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixelOf(firstColumn, firstRow), cornerPixelOf(firstColumn + cellsPerSquare, firstRow), cornerPixelOf(firstColumn, firstRow + cellsPerSquare)];
   canvasContext.save();
   canvasContext.transform(rightX - originX, rightY - originY, aboveX - originX, aboveY - originY, originX, originY);
   // Cells that are not smaller than a pixel have sharp edges.

@@ -102,9 +102,9 @@ impl PolarGrid {
         self.cell_masses(density_at).iter().sum()
     }
 
-    fn count_poses(&self, counted_poses: &[SE2]) -> Vec<f64> {
+    fn count_poses(&self, poses: &[SE2]) -> Vec<f64> {
         let mut pose_counts = vec![0.0; self.cell_counts.iter().product()];
-        for pose in counted_poses {
+        for pose in poses {
             let mut flat_index = Some(0);
             for (axis, grid_coordinate) in self.grid_coordinates_of(pose).into_iter().enumerate() {
                 let cell_index =
@@ -123,9 +123,9 @@ impl PolarGrid {
 
     pub fn assert_samples_fit<M: MotionModel>(&self, model: &M, u: &M::Control, x: &SE2, seed: u64) {
         let mut rng = seeded_rng(seed);
-        let counted_poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(u, x, &mut rng)).collect();
-        let (chi_square, chi_square_limit) = self
-            .chi_square(&counted_poses, |pose| model.pose_density(pose, u, x).expect("noise of full rank"));
+        let poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(u, x, &mut rng)).collect();
+        let (chi_square, chi_square_limit) =
+            self.chi_square(&poses, |pose| model.pose_density(pose, u, x).expect("noise of full rank"));
         assert!(chi_square < chi_square_limit, "seed {seed}: χ² = {chi_square}, limit {chi_square_limit}");
     }
 
@@ -134,9 +134,9 @@ impl PolarGrid {
     ///
     /// If a kink of the triangular density crosses a cell, the Gauss rule has an error of about 1e-3 of its mass. With 10⁶
     /// samples that changes χ² by about 1, and the limit is above 100.
-    fn chi_square(&self, counted_poses: &[SE2], density_at: impl Fn(&SE2) -> f64) -> (f64, f64) {
-        let n = counted_poses.len() as f64;
-        let mut observed_counts = self.count_poses(counted_poses);
+    fn chi_square(&self, poses: &[SE2], density_at: impl Fn(&SE2) -> f64) -> (f64, f64) {
+        let n = poses.len() as f64;
+        let mut observed_counts = self.count_poses(poses);
         let mut expected_counts: Vec<f64> =
             self.cell_masses(density_at).iter().map(|probability_mass| probability_mass * n).collect();
         observed_counts.push(n - observed_counts.iter().sum::<f64>());

@@ -106,7 +106,7 @@ const RELATIVE_MARK_MARGIN = 0.08;
 /** Picture of one leg in the frame of its start pose: the predicted end poses, and the end poses by odometry and by reference. */
 export class LegPicture extends FigurePicture<Scene> {
   pictureName = 'leg';
-  pictureView: PictureView = new PictureView({ left: 50 });
+  pictureView: PictureView = new PictureView({ leftMargin: 50 });
 
   fitView({ leg }: Scene) {
     if (!leg) return;

@@ -166,10 +166,10 @@ function arcCalloutsOf({ pictureView }: DrawContext, start: Pose, { center }: Ar
 }
 
 /** Returns the visible fraction of a line. The first point of the line is visible. */
-function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').PictureView['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+function visibleFractionOf({ leftEdge, rightEdge, topEdge, bottomEdge }: import('../../scene/view.ts').PictureView['plotArea'], [startX, startY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const visibleFractionOfRange = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clampNumber(end, min, max) - start) / (end - start);
-  return Math.min(visibleFractionOfRange(startX, x, left, right), visibleFractionOfRange(startY, y, top, bottom));
+  return Math.min(visibleFractionOfRange(startX, x, leftEdge, rightEdge), visibleFractionOfRange(startY, y, topEdge, bottomEdge));
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */

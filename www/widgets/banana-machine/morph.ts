@@ -44,7 +44,7 @@ export class MorphView extends PictureView {
   /** Views at the two ends of the morph: first the floor, then exponential coordinates. */
   endViews;
 
-  constructor(margins: { left: number, right: number }) {
+  constructor(margins: { leftMargin: number, rightMargin: number }) {
     super(margins);
     this.endViews = [new PictureView(margins), new PictureView({ ...margins, hasEqualScales: false })];
   }

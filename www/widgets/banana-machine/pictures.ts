@@ -41,7 +41,7 @@ const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'comma
 
 /** Picture of the robots at a stage of the morph, from the floor (0) to exponential coordinates (1). */
 class MorphPicture extends FigurePicture<Scene, 'plane' | 'twist'> {
-  pictureView: MorphView = new MorphView({ left: 46, right: 10 });
+  pictureView: MorphView = new MorphView({ leftMargin: 46, rightMargin: 10 });
   /** Names of the outlines that the picture may draw. */
   outlineNames: readonly LineName[] = PAINT_ORDER;
   #densityImage = new CachedImage();

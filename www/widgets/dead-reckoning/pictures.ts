@@ -63,7 +63,7 @@ export class PathPicture extends FigurePicture<Scene> {
 /** Picture of the selected step in the coordinates ξ along and ξ lateral about the commanded pose. The axes have different scales, because the lateral spread is small at first. */
 export class StepPicture extends FigurePicture<Scene> {
   pictureName = 'twist';
-  pictureView: PictureView = new PictureView({ hasEqualScales: false, left: 52, right: 10 });
+  pictureView: PictureView = new PictureView({ hasEqualScales: false, leftMargin: 52, rightMargin: 10 });
 
   fitView({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const shownCoordinates = [0, 0, ...predicted];

@@ -6,7 +6,7 @@ use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, FloorPlanError};
 
-/// Maximum numbers of walls in a plan and of tested arcs. The time for the distance field grows with the number of walls.
+/// Maximum numbers of walls in a floor plan and of tested arcs. The time for the distance field grows with the number of walls.
 const MAX_WALLS: usize = 4;
 const MAX_ARCS: usize = 3;
 

@@ -58,8 +58,8 @@ impl SE2 {
         self.theta
     }
 
-    /// Returns the exponential map of a twist (eq. 156): the pose after one unit of time at the constant body velocity
-    /// `twist` = (v_x, v_y, ω), from the identity.
+    /// Returns the exponential map of a twist (Solà et al., eq. 156): the pose after one unit of time at the constant body velocity `twist`
+    /// = (v_x, v_y, ω), from the identity.
     ///
     /// The position is V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω]. The heading is ω, wrapped. The chord
     /// form of V needs no series near ω = 0. For |ω| ≤ π the error of a component is at most 4e-16 · max(1, ‖twist‖).
@@ -68,7 +68,7 @@ impl SE2 {
         Self::new(a * twist.x - b * twist.y, b * twist.x + a * twist.y, twist.z)
     }
 
-    /// Returns the logarithm (eq. 157), inverse of [`SE2::exp`]: the twist in (m, m, rad) with |ω| ≤ π.
+    /// Returns the logarithm (Solà et al., eq. 157), inverse of [`SE2::exp`]: the twist in (m, m, rad) with |ω| ≤ π.
     ///
     /// V⁻¹ = [h·cot h, h; −h, h·cot h] with h = θ/2. Like every logarithm of SE(2) it is discontinuous at the heading π.
     pub fn log(&self) -> Vector3<f64> {
@@ -87,12 +87,12 @@ impl SE2 {
         Vector3::new(h_cot_h * self.x + half_turn * self.y, h_cot_h * self.y - half_turn * self.x, turn)
     }
 
-    /// Returns x ⊞ τ = x · exp(τ), which is this pose moved by a twist in its own body frame (eq. 25).
+    /// Returns x ⊞ τ = x · exp(τ), which is this pose moved by a twist in its own body frame (Solà et al., eq. 25).
     pub fn boxplus(&self, twist: Vector3<f64>) -> Self {
         *self * Self::exp(&twist)
     }
 
-    /// Returns x ⊟ y = log(y⁻¹ · x), the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
+    /// Returns x ⊟ y = log(y⁻¹ · x), the twist in the body frame of `other` that takes `other` to this pose (Solà et al., eq. 26).
     pub fn boxminus(&self, other: &Self) -> Vector3<f64> {
         other.motion_to(self).log()
     }
@@ -114,8 +114,8 @@ impl SE2 {
         )
     }
 
-    /// Returns the adjoint Ad (eq. 159), 3 × 3, with x · exp(τ) = exp(Ad τ) · x. The adjoint converts a twist from the body frame to the
-    /// reference frame.
+    /// Returns the adjoint Ad (Solà et al., eq. 159), 3 × 3, with x · exp(τ) = exp(Ad τ) · x. The adjoint converts a twist from the body
+    /// frame to the reference frame.
     pub fn adjoint(&self) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(self.theta);
         Matrix3::new(cos, -sin, self.y, sin, cos, -self.x, 0.0, 0.0, 1.0)
@@ -145,8 +145,8 @@ impl SE2 {
 impl Mul for SE2 {
     type Output = Self;
 
-    /// Returns the composition of two poses (eq. 154). `other` is in the frame of `self`, and the result is in the reference frame of
-    /// `self`.
+    /// Returns the composition of two poses (Solà et al., eq. 154). `other` is in the frame of `self`, and the result is in the reference
+    /// frame of `self`.
     fn mul(self, other: Self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(

@@ -58,7 +58,7 @@ pub struct MapConditioned<'a> {
     pub plan: &'a FloorPlan,
     /// Radius of the robot, m. The centre of the robot stays further away from walls than this radius.
     pub clearance: f64,
-    /// Condition for accepting a draw.
+    /// Condition under which a drawn motion is accepted.
     pub sampler: Sampler,
 }
 

@@ -19,8 +19,8 @@ use wide::f64x4;
 pub struct FloorPlan {
     walls: Vec<Segment>,
     plan_bounds: [f64; 4],
-    /// Cells of the grid from which the plan was made, if any. The walls are the outlines of its occupied cells. A point inside an occupied
-    /// cell is never free.
+    /// Cells of the grid from which the floor plan was made, if any. The walls are the outlines of its occupied cells. A point inside an
+    /// occupied cell is never free.
     occupied_grid: Option<OccupancyGrid>,
     /// Search structures of the collision tests, created by the first test.
     collision_index: OnceLock<CollisionIndex>,
@@ -35,7 +35,7 @@ struct CollisionIndex {
 /// Reason why a floor plan is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum FloorPlanError {
-    /// A bound of the plan is beyond ±10⁶ m, or the plan is narrower than a centimetre or wider than 100 km in x or y.
+    /// A bound of the floor plan is beyond ±10⁶ m, or the plan is narrower than a centimetre or wider than 100 km in x or y.
     #[error(
         "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides from 0.01 to 100000",
         join_numbers(.0)
@@ -49,7 +49,7 @@ pub enum FloorPlanError {
         /// Position (m) of the invalid end of the wall, or of its start if neither end is valid.
         invalid_end: [f64; 2],
     },
-    /// The plan has more than [`FloorPlan::MAX_WALLS`] walls.
+    /// The floor plan has more than [`FloorPlan::MAX_WALLS`] walls.
     #[error("walls has a length of {0} or more; allowed is at most {max}", max = FloorPlan::MAX_WALLS)]
     TooManyWalls(usize),
     /// The bounds of a grid exceed the range that is allowed for a floor plan.
@@ -85,16 +85,16 @@ impl CollisionVerdict {
     const BLOCKED: Self = Self { is_free: false, wall_tests: 0 };
 }
 
-/// Range of the coordinates of a plan's bounds, m. A robot's coordinates have the same range.
+/// Allowed coordinates of the bounds of a floor plan, m. A robot's coordinates have the same range.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 const SIDE_RANGE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
-    /// Maximum number of walls of a plan.
+    /// Maximum number of walls of a floor plan.
     pub const MAX_WALLS: usize = 20_000;
 
-    /// Creates a plan of `walls` within `bounds` (minimum x, minimum y, maximum x, maximum y), m. Fails with [`FloorPlanError`] for the
-    /// first wall or bound that is not allowed.
+    /// Creates a floor plan of `walls` within `bounds` (minimum x, minimum y, maximum x, maximum y), m. Fails with [`FloorPlanError`] for
+    /// the first wall or bound that is not allowed.
     pub fn new(walls: Vec<Segment>, bounds: [f64; 4]) -> Result<Self, FloorPlanError> {
         Self::with_grid(walls, bounds, None)
     }
@@ -142,13 +142,13 @@ impl FloorPlan {
         Ok(Self { walls, plan_bounds: bounds, occupied_grid, collision_index: OnceLock::new() })
     }
 
-    /// Creates the plan of the apartment of Map Squeeze: 12 m × 9 m, 18 walls.
+    /// Creates the floor plan of the apartment in which the widget Map Squeeze opens: 12 m × 9 m, 18 walls.
     pub fn apartment() -> Self {
         Self::new(apartment::WALLS.to_vec(), apartment::APARTMENT_BOUNDS)
             .unwrap_or_else(|_| unreachable!("a constant that the tests build"))
     }
 
-    /// Returns the walls. If the plan was made from a grid, they are the outlines of its blocked cells.
+    /// Returns the walls. For a floor plan made from a grid, they are the outlines of the blocked cells.
     pub fn walls(&self) -> &[Segment] {
         &self.walls
     }
@@ -158,7 +158,7 @@ impl FloorPlan {
         self.plan_bounds
     }
 
-    /// Returns the cells of the grid from which the plan was made; None if the plan was made from walls.
+    /// Returns the grid from which the floor plan was made; None if it was made from walls.
     pub fn grid(&self) -> Option<&OccupancyGrid> {
         self.occupied_grid.as_ref()
     }

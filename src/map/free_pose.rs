@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 const HEADING_COUNT: u32 = 72;
 
-/// Number of cells along the longer side of the grid to which a plan of walls is converted.
+/// Number of cells along the longer side of the grid to which a floor plan of walls is converted.
 const CELLS_ALONG_LONGER_SIDE: f64 = 256.0;
 
 impl FloorPlan {
@@ -28,7 +28,7 @@ impl FloorPlan {
         Some(SE2::new(x, y, heading_of_longest_path(&occupancy_grid, [x, y], does_robot_fit)))
     }
 
-    /// Returns a grid for a plan of walls. Cells that may touch a wall are occupied.
+    /// Converts a floor plan of walls to a grid. Cells that may touch a wall are occupied.
     fn rasterize(&self) -> OccupancyGrid {
         let [min_x, min_y, max_x, max_y] = self.bounds();
         let (map_width, map_height) = (max_x - min_x, max_y - min_y);

@@ -28,7 +28,7 @@ settings! {
         to: [f64; 3] = [-1.2, -0.3, 0.1], each "that odometry reports";
         /// Odometry rule, which decomposes the reading and relates the α’s to its noise.
         rule: OdometryRule = OdometryRule::Table;
-        /// Noise parameters of the rule; only the rule omni has the fifth.
+        /// Noise parameters of the odometry rule; only the rule omni has the fifth.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE,
             each "Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.";
         /// Distribution of the noise. Its choice does not change the variances.
@@ -98,7 +98,7 @@ js_structs! {
         pub legs: OdomDelta,
     }
 
-    /// Statistics of the outcomes shown, and exact values under the selected rule. Statistics are NaN without outcomes.
+    /// Statistics of the outcomes shown (noisy end poses; NaN without outcomes), and exact values under the selected odometry rule.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "DecomposerStats" {
         /// Number of outcomes shown, which are end poses drawn with noise.
@@ -147,12 +147,12 @@ impl OdometryDecomposer {
         Ok(())
     }
 
-    /// Returns the number of outcomes that can be added within a few milliseconds: all of them.
+    /// Returns the number of outcomes (noisy end poses) that can be added within a few milliseconds: all of them.
     pub fn block_size(&self) -> usize {
         self.settings.samples
     }
 
-    /// Returns the number of outcomes shown.
+    /// Returns the number of outcomes shown, which are end poses drawn with noise.
     pub fn shown_count(&self) -> usize {
         self.poses.len()
     }
@@ -194,7 +194,7 @@ impl OdometryDecomposer {
         })
     }
 
-    /// Returns the end pose of each outcome shown, in sample order.
+    /// Returns the outcomes shown, which are end poses drawn with noise, in sample order.
     pub fn poses(&self) -> &[SE2] {
         &self.poses
     }
@@ -296,7 +296,7 @@ impl OdometryDecomposer {
         DriftedOdometry { poses: [drifted_frame, drifted_start, drifted_end].map(Into::into).to_vec(), legs }
     }
 
-    /// Returns the outcome shown that ends nearest to a point (m), within `search_radius`.
+    /// Returns the index of the outcome shown (noisy end pose) that is nearest to a point (m), within `search_radius`.
     pub fn find_nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
         nearest_index(self.poses.iter().map(SE2::position), target_point, [search_radius, search_radius])
     }

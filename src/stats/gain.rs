@@ -97,7 +97,7 @@ impl LogDensityDifferences {
         }
     }
 
-    /// Adds four robots with their weights; lanes without a robot have the weight 0.
+    /// Adds four robots with their weights; SIMD lanes without a robot have the weight 0.
     #[inline(never)]
     pub fn add(&mut self, four_robots: &FourRobots, robot_weights: f64x4) {
         let FittedGaussians { cartesian, twist, arc, likelihood_gain, mean_jacobian } =

@@ -41,8 +41,8 @@ pub struct FourArcs {
     pub sinc: f64x4,
 }
 
-/// Reference point of the sums, from which all coordinates are subtracted: x, y, along, lateral and half heading of a pose; length and half
-/// turn of the arc to it.
+/// Reference point of the sums, from which all coordinates are subtracted: x, y, along, lateral and half heading of a pose; length of the
+/// arc to it, and half the turn of the arc.
 pub type ReferencePoint = [f64; 7];
 
 /// Factors that scale the two terms of the Jacobians to about 1, so that a product of many terms does not underflow. One term is
@@ -79,7 +79,7 @@ impl FirstPass {
         }
     }
 
-    /// Adds poses, and the first two random numbers of variance 1 of their robots. Only lanes that are set in `lane_mask` are added.
+    /// Adds poses, and the first two random numbers of variance 1 of their robots. Only SIMD lanes that are set in `lane_mask` are added.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, unit_noise: [f64x4; 2], lane_mask: f64x4) {
         self.unit_noise.add(unit_noise, lane_mask);
@@ -107,7 +107,7 @@ impl FirstPass {
             multiply_lanes(four_arcs.arc_length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
-    /// Multiplies the products by the Jacobians of the poses in the lanes that are set in `lane_mask`.
+    /// Multiplies the products by the Jacobians of the poses in the SIMD lanes that are set in `lane_mask`.
     #[inline(never)]
     pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, four_arcs: &FourArcs, lane_mask: f64x4) {
         let masked_or_one = |lane_factors: f64x4| lane_mask.bitselect(lane_factors, f64x4::splat(1.0));
@@ -167,7 +167,7 @@ impl FirstPass {
         let [aa, al, ll] = [variance_of_sums(aa, a), cov_of(al, a, l), variance_of_sums(ll, l)];
         let [ah, lh, hh] = [2.0 * cov_of(ah, a, h), 2.0 * cov_of(lh, l, h), 4.0 * variance_of_sums(hh, h)];
         let [ss, st, tt] = [variance_of_sums(ss, s), 2.0 * cov_of(st, s, t), 4.0 * variance_of_sums(tt, t)];
-        // The scale applies to all four lanes, including lanes without a pose.
+        // The scale applies to all four SIMD lanes, including lanes without a pose.
         let scaled_lane_count = pose_count.next_multiple_of(LANE_COUNT) as f64;
         let [mean_log_twist, mean_log_arc] = [0, 1]
             .map(|i| (self.log_jacobian_sums[i] - scaled_lane_count * libm::log(self.jacobian_scale[i])) / n);
@@ -253,7 +253,7 @@ impl SecondPass {
         }
     }
 
-    /// Adds the poses in the lanes that are set in `lane_mask`.
+    /// Adds the poses in the SIMD lanes that are set in `lane_mask`.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, lane_mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.mean_position, self.heading_sin_cos);

@@ -49,7 +49,7 @@ pub struct SystematicErrors {
     turn_scale: SystematicValue<Option<f64>, Option<[f64; 2]>>,
 }
 
-/// Standard deviations of the reference: each coordinate (m) and heading (rad).
+/// Noise of the reference log: standard deviations of each coordinate (m) and of the heading (rad).
 #[derive(Serialize, Tsify)]
 #[serde(rename_all = "camelCase")]
 pub struct ReferenceNoise {
@@ -71,7 +71,7 @@ pub struct CalibrationStats<'a> {
     systematic_errors: SystematicErrors,
     reference_noise: ReferenceNoise,
     persistence: Persistence,
-    /// Parts of the log that give no legs, by cause.
+    /// Parts of the log from which no legs are made, by cause.
     lost: LostLegs,
     /// Restricted log-likelihood of the residuals (REML), nats.
     log_likelihood: f64,

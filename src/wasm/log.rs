@@ -72,7 +72,7 @@ fn read_poses(field_path: &str, value: &JsValue) -> Result<Trajectory, JsValue> 
     checked_trajectory(log_fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Returns a trajectory of the columns in `log_fields`, with the breaks before the samples that `log_fields.breaks` lists.
+/// Returns the trajectory with the columns in `log_fields`. The pose may jump before the samples that `log_fields.breaks` lists.
 fn checked_trajectory(
     log_fields: &FieldReader,
     trajectory: Result<Trajectory, TrajectoryError>,

@@ -18,7 +18,7 @@ cloud_simulation_class! {
         stats: "DecomposerStats" = to_plain_js(&simulation.stats());
         /// Decomposition of the reading and its noise by each odometry rule.
         rules: "RuleNoise[]" = to_plain_js(&simulation.rule_noises());
-        /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
+        /// x, y (m), θ (rad) of each outcome shown (end pose drawn with noise), in the odometry frame; a copy.
         poses: "Float64Array" = triple_array(simulation.poses().iter().copied());
         /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the second rotation.
         leg_poses as "linkage": "Float64Array" = triple_array(simulation.leg_poses());
@@ -43,7 +43,7 @@ impl JsOdometryDecomposer {
         Ok(flat_float_array(&self.0.deviation_curve(max_length, count)))
     }
 
-    /// Returns the index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.
+    /// Returns the index of the outcome (noisy end pose) that is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target_point, radius| self.0.find_nearest(target_point, radius))
     }

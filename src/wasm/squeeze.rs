@@ -50,7 +50,7 @@ cloud_simulation_class! {
         /// Outcome of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
         verdicts: "Uint8Array" =
             simulation.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
-        /// x, y (m), θ (rad) of each attempt shown; a copy.
+        /// x, y (m), θ (rad) at the end of each attempt shown (motion, accepted or rejected); a copy.
         poses: "Float64Array" = triple_array(simulation.attempts().iter().map(|attempt| attempt.pose));
         /// Noise-free path of the command, as x, y pairs.
         commanded: "Float64Array" = flat_float_array(&simulation.commanded_arc().points());
@@ -64,7 +64,7 @@ cloud_simulation_class! {
         };
     }
     others {
-        /// Level n of the noise parameters; null if they do not have the ratios of a level.
+        /// Noise level n; null unless the first four noise parameters are n, and the others n/4.
         noise: "number | null" = to_plain_js(&simulation.settings().noise());
         plan: "Plan" = {
             let wall_coordinates_of = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
@@ -160,7 +160,7 @@ impl JsMapSqueeze {
         Ok(pixel_view(self.0.paint_picture(&grid, &ramps)))
     }
 
-    /// Returns the index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.
+    /// Returns the index of the attempt (accepted or rejected motion) that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target_point, radius| self.0.find_nearest(target_point, radius))
     }

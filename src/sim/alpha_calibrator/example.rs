@@ -29,8 +29,8 @@ const LEG_DISTANCE: f64 = 0.25;
 /// Turn of the legs to which the true α's apply, rad: the default of `update_min_a` in Nav2's AMCL.
 const LEG_ANGLE: f64 = 0.2;
 
-/// Jumps of the reference: size (m), duration in rows, and probability that a jump begins at a row. With these values one leg in 70 is an
-/// outlier.
+/// Jumps of the reference log: size (m), duration in rows, and probability that a jump begins at a row. With these values one leg in 70 is
+/// an outlier.
 const JUMP_SIZE: f64 = 0.5;
 const ROWS_PER_JUMP: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;

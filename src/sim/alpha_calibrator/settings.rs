@@ -10,7 +10,7 @@ use crate::sim::settings::{
 /// Motion model whose α's are calibrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
-    /// Odometry model with four α's, by the selected rule.
+    /// Odometry model with four α's, by the selected odometry rule.
     Odometry,
     /// Odometry model with five α's of a robot that can drive sideways: [`OdometryRule::Omni`].
     Omnidirectional,
@@ -30,11 +30,11 @@ settings! {
     pub struct Settings {
         /// Model whose α’s are calibrated: four of odometry, five of a robot that can drive sideways, or six of commands.
         model: Model = Model::Odometry;
-        /// Rule that relates the α’s to the noise of odometry. The rule omni belongs to the omnidirectional model.
+        /// Odometry rule, which relates the α’s to the noise of odometry. The rule omni belongs to the omnidirectional model.
         rule: OdometryRule = OdometryRule::Table;
-        /// Distribution of the noise in the predicted outcomes of a leg. Its choice does not change the variances.
+        /// Distribution of the noise in the predicted end poses of a leg. Its choice does not change the variances.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Treatment of outliers, such as jumps of the reference: excluded, or fitted as noise.
+        /// Treatment of outliers, such as jumps of the reference log: excluded, or fitted as noise.
         outliers: Outliers = Outliers::Reject;
         /// Distance by odometry, in x or in y, after which a leg ends: `update_min_d` of AMCL.
         distance: f64 = 0.25, "m", in 0.01..=100.0;
@@ -52,26 +52,26 @@ settings! {
         turn_scale as "turnScale": bool = true;
         /// Correction of the offset between the two clocks, if the log identifies it.
         clock_offset as "clockOffset": bool = true;
-        /// Standard deviation of each coordinate of the reference; 0 if it is estimated.
+        /// Standard deviation of each coordinate in the reference log; 0 if it is estimated.
         position_std as "positionStd": f64 = 0.0, "m", in 0.0..=1e3;
-        /// Standard deviation of the reference’s heading; 0 if it is estimated.
+        /// Standard deviation of the heading in the reference log; 0 if it is estimated.
         yaw_std as "yawStd": f64 = 0.0, "rad", in 0.0..=1e3;
         /// Factor by which the fitted α’s are multiplied in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // With the default seed, all confidence intervals contain the true values.
-        /// Seed of the simulated log, and of the predicted outcomes.
+        /// Seed of the simulated log, and of the predicted end poses of a leg.
         seed: u64 = 8, in 0..=MAX_SEED;
     }
 }
 
 impl Settings {
-    /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted outcomes.
+    /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted end poses.
     pub(super) fn copy_prediction_settings(&mut self, other_settings: &Self) {
         let Self { inflation: alpha_inflation, noise: noise_kind, seed, .. } = *other_settings;
         *self = Self { inflation: alpha_inflation, noise: noise_kind, seed, ..*self };
     }
 
-    /// Returns true if `other_settings` give the same fit, because they differ at most in settings of the predicted outcomes.
+    /// Returns true if `other_settings` give the same fit, because they differ at most in settings of the predicted end poses.
     pub(super) fn has_same_fit(&self, other_settings: &Self) -> bool {
         let mut with_other_prediction = *self;
         with_other_prediction.copy_prediction_settings(other_settings);

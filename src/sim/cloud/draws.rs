@@ -74,7 +74,7 @@ impl Draws {
     }
 
     /// Returns a weighted subsample of the first `sample_count` robots of the cloud, in groups of four: the random numbers of variance 1 of
-    /// each robot, and its weight. The weight is the number of robots that the robot represents, and 0 for lanes of a group beyond
+    /// each robot, and its weight. The weight is the number of robots that the robot represents, and 0 for SIMD lanes beyond
     /// `sample_count`. All robots of a cloud of up to 2048 are in the subsample.
     pub fn weighted_subsample(&self, sample_count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
         let group_count = sample_count.div_ceil(LANE_COUNT);

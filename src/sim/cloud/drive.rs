@@ -20,7 +20,7 @@ pub struct NoisyDrive {
     half_heading_offset: AffineInNoise,
     /// Half of the commanded turn (rad). Of all logarithms and arcs, those with the turn nearest to the commanded turn are used.
     half_commanded_turn: f64,
-    /// Middle and half the width (rad) of the interval of half turns for which the formulas for angles up to π/2 suffice.
+    /// Middle and half the width (rad) of the interval of φ/2, with the turn φ, in which the formulas for angles up to π/2 suffice.
     short_formula_interval: [f64; 2],
     trigonometry: Trigonometry,
 }
@@ -68,7 +68,7 @@ impl NoisyDrive {
     }
 
     /// Returns the end points (x, y) of four motions, the arcs from the origin to these points, and true if these are regular arcs: those
-    /// that the robots drove. Noise changes the length and half turn of regular arcs by [`NoisyDrive::regular_arc_deviations`].
+    /// that the robots drove. Noise changes the length and half the turn of regular arcs by [`NoisyDrive::regular_arc_deviations`].
     #[inline(always)]
     pub fn end_points(&self, motions: &FourMotions) -> ([f64x4; 2], FourArcs, bool) {
         let FourMotions { length, bearing, .. } = *motions;
@@ -91,7 +91,7 @@ impl NoisyDrive {
         [chord_length * bearing_sin_cos.cos, chord_length * bearing_sin_cos.sin]
     }
 
-    /// Returns the deviations that noise adds to the length and half turn of regular arcs: the arcs that the robots drove.
+    /// Returns the deviations that noise adds to the length and half the turn of regular arcs: the arcs that the robots drove.
     #[inline(always)]
     pub fn regular_arc_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
         let noise_stds = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
@@ -169,7 +169,7 @@ impl NoisyDrive {
         ]
         .map(|coordinate_lanes| coordinate_lanes.to_array()[0]);
         if self.is_arc {
-            // The length and half turn of the command are known. Inverting the end pose would give them with other last bits.
+            // The length and half the turn of the command are known. Inverting the end pose would give them with other last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
         let [half_heading_sinc, arc_sinc] =
@@ -197,7 +197,7 @@ fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
 /// Maximum angle (rad) for the sine and cosine formulas of small angles: π/2 minus a margin for rounding.
 pub const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// Returns the middle and half the width (rad) of the interval of half turns that are within π/2 of 0 and of `half_commanded_turn`.
+/// Returns the middle and half the width (rad) of the interval of angles that are within π/2 of 0 and of `half_commanded_turn`.
 fn short_formula_interval(half_commanded_turn: f64) -> [f64; 2] {
     let (interval_start, interval_end) = (
         (half_commanded_turn - MAX_SHORT_FORMULA_ANGLE).max(-MAX_SHORT_FORMULA_ANGLE),

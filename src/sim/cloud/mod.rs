@@ -102,7 +102,7 @@ impl Cloud {
     }
 
     /// Returns the points of the samples in a picture, in groups of four. `morph_fraction` is 0 for positions (x, y), and 1 for exponential
-    /// coordinates (along, heading). In the last group, lanes without a sample are infinitely far away.
+    /// coordinates (along, heading). In the last group, SIMD lanes without a sample are infinitely far away.
     #[inline(always)]
     pub fn point_groups(&self, morph_fraction: f64) -> impl Iterator<Item = [f64x4; 2]> {
         let points_of_group = move |group_index: usize| match morph_fraction {
@@ -127,7 +127,7 @@ impl Cloud {
 }
 
 /// Divides `sample_count` samples into blocks of groups of four, at least one block. Each block has two ranges of groups, each with its
-/// lane mask: groups whose four lanes all have samples, and groups with unused lanes.
+/// mask of SIMD lanes: full groups of four samples, and groups with unused lanes.
 fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let group_count = sample_count.div_ceil(LANE_COUNT);
     let lane_mask = first_lanes_mask(sample_count % LANE_COUNT);

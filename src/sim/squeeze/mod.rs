@@ -155,22 +155,22 @@ impl MapSqueeze {
         }
     }
 
-    /// Returns the number of attempts that are made within a few milliseconds.
+    /// Returns the number of attempts (motions, accepted or rejected) that are made within a few milliseconds.
     pub fn block_size(&self) -> usize {
         (PARTS_PER_BLOCK / self.settings.part_count() as usize).max(1)
     }
 
-    /// Returns the attempts shown, in sample order.
+    /// Returns the attempts shown (motions, accepted or rejected), in sample order.
     pub fn attempts(&self) -> &[Attempt] {
         &self.tested_attempts
     }
 
-    /// Returns the number of attempts shown.
+    /// Returns the number of attempts shown (motions, accepted or rejected).
     pub fn shown_count(&self) -> usize {
         self.tested_attempts.len()
     }
 
-    /// Returns the statistics of the attempts shown.
+    /// Returns the statistics of the attempts shown (motions, accepted or rejected).
     pub fn stats(&self) -> Stats {
         let OutcomeTally { total_cost: cost, accepted_count, through_wall, gave_up } = self.outcome_tally;
         // The ratio is NaN for 0/0, and infinite for another number over 0.
@@ -210,7 +210,7 @@ impl MapSqueeze {
         &self.picture_pixels
     }
 
-    /// Returns the attempt that ends nearest to the point `target_point` (m), within `search_radius` (m).
+    /// Returns the index of the attempt (accepted or rejected motion) that ends nearest to `target_point` (m), within `search_radius` (m).
     pub fn find_nearest(&self, target_point: [f64; 2], search_radius: f64) -> Option<usize> {
         let end_positions = self.tested_attempts.iter().map(|shown_attempt| shown_attempt.pose.position());
         nearest_index(end_positions, target_point, [search_radius, search_radius])
@@ -289,23 +289,23 @@ js_structs! {
     /// Statistics of the attempts shown. Fractions of no attempts are NaN. Costs per accepted attempt are infinite if none is accepted.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "SqueezeStats" {
-        /// Number of attempts shown.
+        /// Number of attempts shown (motions, accepted or rejected).
         pub attempts: usize,
         /// Number of motions that were drawn. The sub-stepped sampler counts the parts of motions that it drew.
         pub drawn: usize,
-        /// Number of accepted attempts.
+        /// Number of attempts whose motion is accepted.
         pub accepted: usize,
-        /// Fraction of accepted draws.
+        /// Number of accepted draws, divided by the number of draws.
         pub acceptance_rate: f64,
-        /// Number of attempts accepted although the path was blocked.
+        /// Number of attempts accepted although a wall blocks the path.
         pub through_wall: usize,
-        /// Fraction of accepted attempts whose path was blocked.
+        /// Fraction of accepted attempts in which a wall blocks the path.
         pub through_wall_rate: f64,
-        /// 95 % interval of the fraction of accepted attempts whose path was blocked.
+        /// 95 % interval of the fraction of accepted attempts in which a wall blocks the path.
         pub through_wall_interval: [f64; 2],
-        /// Draws per accepted attempt.
+        /// Number of draws, divided by the number of accepted attempts.
         pub draws_per_accepted: f64,
-        /// Number of wall distances computed, per accepted attempt.
+        /// Number of wall distances computed, divided by the number of accepted attempts.
         pub wall_tests_per_accepted: f64,
         /// True if the simulation stopped before it had all samples, because too few draws were accepted.
         pub gave_up: bool,

@@ -19,7 +19,7 @@ keywords!(UnknownCells: "free" = Self::Free, "blocked" = Self::Blocked);
 /// Start pose x, y (m) and θ (rad) in front of a doorway of the apartment.
 const DOORWAY_START: [f64; 3] = [2.05, 2.6, FRAC_PI_2];
 
-/// Maximum number of attempts, which take 56 MB, and some seconds on a difficult map.
+/// Maximum number of attempts (motions, accepted or rejected). They take 56 MB, and some seconds on a difficult map.
 pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of parts of a command. A thousand parts are as exact as testing the whole arc, and a thousand times slower.
 pub const MAX_STEPS: u64 = 1000;
@@ -29,7 +29,7 @@ settings! {
     pub struct Settings {
         /// Start pose of the robot.
         start: [f64; 3] = DOORWAY_START, each "at which the robot starts";
-        /// Command of all attempts.
+        /// Command of all sampled motions.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters, the six of the velocity model.
         alphas: [f64; 6] = alphas_of_noise_level(0.12), in ALPHA_RANGE;
@@ -58,12 +58,12 @@ impl Settings {
         NoiseLevel(&mut self.alphas)
     }
 
-    /// Returns the noise level of the α's; None if the α's do not have the ratios of a level.
+    /// Returns the noise level n of the α's; None unless the first four α's are n, and the others n/4.
     pub fn noise(mut self) -> Option<f64> {
         self.noise_level().get()
     }
 
-    /// Returns the number of parts of the motion of an attempt.
+    /// Returns the number of parts into which the sampler splits a motion.
     pub fn part_count(&self) -> u32 {
         self.sampler.part_count()
     }

@@ -1,4 +1,4 @@
-//! Numbers of Arc Anatomy on the page, compared with computed numbers.
+//! Comparison of the numbers in the page's text about Arc Anatomy with numbers that its simulation computes.
 
 use super::read_page_text;
 use crate::common::settings_of_preset;

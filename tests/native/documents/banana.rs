@@ -1,4 +1,4 @@
-//! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed numbers.
+//! Comparison of the numbers about the Banana Machine, in the page's text and in doc/statistics.md, with computed numbers.
 
 use super::read_page_text;
 use crate::common::text::{PlainText, PrintedNumber};

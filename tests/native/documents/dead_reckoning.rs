@@ -1,4 +1,4 @@
-//! Compares the numbers in the text of the page about the figure Dead Reckoning with numbers that its simulation computes.
+//! Comparison of the numbers in the page's text about Dead Reckoning with numbers that its simulation computes.
 
 use super::{read_exercises, read_page_text};
 use crate::common::text::PrintedNumber;

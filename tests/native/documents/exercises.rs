@@ -1,4 +1,4 @@
-//! Numbers of doc/exercises.md, compared with computed numbers. Exercises 2 and 7 are in `dead_reckoning.rs`.
+//! Comparison of the numbers in doc/exercises.md with computed numbers. Exercises 2 and 7 are in `dead_reckoning.rs`.
 
 use super::read_exercises;
 use crate::common::text::PrintedNumber;

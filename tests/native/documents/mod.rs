@@ -1,4 +1,4 @@
-//! Numbers and statements on the page and in doc/, compared with computed numbers.
+//! Comparison of numbers and statements in the texts of the demo page and of doc/ with computed numbers.
 
 mod arc_anatomy;
 mod banana;

@@ -1,4 +1,4 @@
-//! Numbers of the Odometry Decomposer on the page, and of the noise rules in doc/model.md, compared with computed numbers.
+//! Comparison of the numbers in the page's text about the Odometry Decomposer, and in doc/model.md, with computed numbers.
 
 use super::{read_model_document, read_page_text};
 use crate::common::settings_of_preset;

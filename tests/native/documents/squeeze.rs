@@ -1,4 +1,4 @@
-//! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed numbers.
+//! Comparison of the fractions that the page's text and doc/model.md state for Map Squeeze with computed fractions.
 
 use super::{read_model_document, read_page_text};
 use crate::common::text::PrintedNumber;

@@ -1,5 +1,5 @@
 //! The rules by which localizers compute variances from an odometry reading, compared with cases computed by hand. The exact variances of
-//! outcomes are compared with quadrature and samples.
+//! the end pose are compared with quadrature and samples.
 
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLE_COUNT, seeded_rng};
 use motion::geom::se2::SE2;

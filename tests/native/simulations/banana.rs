@@ -343,7 +343,7 @@ fn additive_noise_does_not_depend_on_the_motion() {
     assert_eq!(rounded_position_std, ADDITIVE_NOISE_STD);
 }
 
-/// The default seed is chosen so that each readout differs from its exact value by less than a fifth of a standard error.
+/// The default seed is chosen so that each displayed statistic differs from its exact value by less than a fifth of a standard error.
 #[test]
 fn statistics_of_the_initial_cloud_are_close_to_the_exact_values() {
     let simulation = new_simulation(Settings::default());

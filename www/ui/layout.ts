@@ -54,7 +54,7 @@ const figureLayout = css`
   .views,
   .controls {
     display: grid;
-    gap: 0.25em 2em;
+    gap: 0.25em 1.25em;
     align-items: start;
   }
 
@@ -332,7 +332,6 @@ const figureLayout = css`
   .swatch {
     flex: none;
     width: 1.9em;
-    height: 0.76em;
     fill: none;
     stroke: var(--role);
   }

@@ -65,7 +65,6 @@ export const sliderStyles = css`
     padding: 0 0.2em;
     translate: 0 -50%;
     opacity: 0;
-    cursor: text;
     text-align: inherit;
   }
 

@@ -141,7 +141,6 @@ const styles = css`
   @container (min-width: 38em) {
     .views {
       grid-template-columns: repeat(2, minmax(0, 1fr));
-      gap: 0.25em 1.25em;
     }
 
     :is(.verdict, .fitted) {

@@ -56,7 +56,6 @@ const styles = css`
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 1fr) 16em;
-      column-gap: 1.25em;
     }
   }
 

@@ -134,7 +134,6 @@ const styles = css`
   @container (min-width: 30em) {
     .views {
       grid-template-columns: 1fr 1fr;
-      column-gap: 1em;
     }
 
     .surface .simulation > .readouts {

@@ -72,7 +72,6 @@ const styles = css`
     .views {
       grid-template: auto auto / minmax(0, 1.45fr) minmax(0, 1fr);
       grid-auto-flow: column;
-      column-gap: 1em;
     }
 
     :host([presentation]) .views {

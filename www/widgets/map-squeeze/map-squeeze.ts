@@ -104,7 +104,6 @@ const styles = css`
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 60svh) minmax(18.25em, 1fr);
-      column-gap: 1.25em;
     }
 
     :host([presentation]) .views {

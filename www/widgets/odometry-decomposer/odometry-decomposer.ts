@@ -53,7 +53,6 @@ const styles = css`
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 3fr) minmax(0, 2fr);
-      column-gap: 1.5em;
     }
 
     /* Both pictures are as high as the window allows. */

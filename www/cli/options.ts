@@ -218,8 +218,8 @@ export function answerQuestion({ fileName, optionName, logRole, possibleAnswers 
   const chosenRole = logRole ?? 'odometry';
   if (optionName === 'roles') return nameRoles(typedArgs);
   if (optionName === 'other') return [...typedArgs, ...(logRole ? [`--${logRole === 'odometry' ? 'reference' : 'odometry'}`] : []), 'FILE'];
+  if (optionName === 'columns') return [...typedArgs, '--columns', `${fileName}=${likeliestChoice ?? 'NAMES'}`];
   if (likeliestChoice === undefined) return undefined;
-  if (optionName === 'columns') return [...typedArgs, '--columns', `${fileName}=${likeliestChoice}`];
   if (optionName in UNIT_NAMES) return [...typedArgs, `--${optionName.replace('Unit', '-unit')}`, `${fileName}=${likeliestChoice}`];
   return [...typedArgs, `--${chosenRole}-${optionName === 'series' ? 'topic' : 'frames'}`, likeliestChoice];
 }

@@ -1,9 +1,9 @@
-/** Cached drawing of the walls or cells of a map. A map may have thousands of them, and they change only with the map, the view or the colours. */
+/** Drawing of the walls or cells of a map. */
 
 import { clampNumber } from '../ui/format.ts';
 import { colourChannelsOf } from '../ui/theme.ts';
 import { addLine, paintWithOpacity, createHiddenContext, strokePath, strokeLine, type DrawContext } from './canvas.ts';
-import { CachedLayer, strokeInBatches, type LayerDrawContext } from './cache.ts';
+import { strokeInBatches, type CachedLayer, type LayerDrawContext } from './cache.ts';
 import type { PictureView } from './view.ts';
 import type { Grid, Plan } from '../types.d.ts';
 
@@ -15,41 +15,27 @@ const WALL_WIDTH = 2.5;
 /** Spacing and width (CSS pixels) and opacity of the lines that hatch unknown cells. */
 const HATCHING_STYLE = { lineSpacing: 7, width: 1, opacity: 0.4 };
 
-export class WallLayer {
-  #floorPlan;
-  #cellGrid;
-  #wallLayer = new CachedLayer();
+/** Draws the bounds of a map, and its walls or, if it is a grid, its cells. Unknown cells are hatched if they are shown. `wallLayer` caches the drawing. */
+export function drawWalls(drawContext: DrawContext, wallLayer: CachedLayer, floorPlan: Plan, cellGrid: CellGrid | null, showsUnknown: boolean) {
+  const paintMap = (layerContext: LayerDrawContext) => paintWalls(layerContext, floorPlan, cellGrid, showsUnknown);
+  if (!cellGrid && 'isVector' in drawContext.canvasContext) paintMap(drawContext);
+  else wallLayer.drawLayer(drawContext, [floorPlan, cellGrid, showsUnknown], paintMap);
+}
 
-  /** Creates the drawing of a plan. If the map is a grid, its cells are drawn instead of the walls. */
-  constructor(floorPlan: Plan, cellGrid: CellGrid | null) {
-    this.#floorPlan = floorPlan;
-    this.#cellGrid = cellGrid;
+function paintWalls(drawContext: LayerDrawContext, { bounds: [xMin, yMin, xMax, yMax], walls }: Plan, cellGrid: CellGrid | null, showsUnknown: boolean) {
+  const { canvasContext, pictureView, palette } = drawContext;
+  if (showsUnknown && cellGrid?.unknown) {
+    // Unknown cells are first filled. Compositing then replaces the filled pixels by hatching.
+    fillCells(drawContext, cellGrid, cellGrid.unknown, palette.muted);
+    canvasContext.globalCompositeOperation = 'source-in';
+    hatchVisibleArea(canvasContext, pictureView, palette.muted);
+    canvasContext.globalCompositeOperation = 'source-over';
   }
-
-  /** Draws the walls or cells; unknown cells are hatched if they are shown. */
-  drawWalls(drawContext: DrawContext, showsUnknown: boolean) {
-    if (!this.#cellGrid && 'isVector' in drawContext.canvasContext) this.#paintWalls(drawContext, showsUnknown);
-    else this.#wallLayer.drawLayer(drawContext, [showsUnknown], (drawContext) => this.#paintWalls(drawContext, showsUnknown));
-  }
-
-  #paintWalls(drawContext: LayerDrawContext, showsUnknown: boolean) {
-    const { canvasContext, pictureView, palette } = drawContext;
-    const cellGrid = this.#cellGrid;
-    if (showsUnknown && cellGrid?.unknown) {
-      // Unknown cells are first filled. Compositing then replaces the filled pixels by hatching.
-      fillCells(drawContext, cellGrid, cellGrid.unknown, palette.muted);
-      canvasContext.globalCompositeOperation = 'source-in';
-      hatchVisibleArea(canvasContext, pictureView, palette.muted);
-      canvasContext.globalCompositeOperation = 'source-over';
-    }
-    if (cellGrid) fillCells(drawContext, cellGrid, cellGrid.occupied, palette.truth);
-    const { bounds: [xMin, yMin, xMax, yMax] } = this.#floorPlan;
-    strokeLine(canvasContext, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => pictureView.toPixel(x, y)), { colour: palette.rule, width: 1 });
-    if (cellGrid) return;
-    const { walls } = this.#floorPlan;
-    const wallLines = Array.from({ length: walls.length / 4 }, (_, i) => pictureView.toPixels(walls.slice(4 * i, 4 * i + 4)));
-    strokeInBatches(canvasContext, wallLines, { colour: palette.truth, width: WALL_WIDTH, lineCap: 'round' });
-  }
+  if (cellGrid) fillCells(drawContext, cellGrid, cellGrid.occupied, palette.truth);
+  strokeLine(canvasContext, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => pictureView.toPixel(x, y)), { colour: palette.rule, width: 1 });
+  if (cellGrid) return;
+  const wallLines = Array.from({ length: walls.length / 4 }, (_, i) => pictureView.toPixels(walls.slice(4 * i, 4 * i + 4)));
+  strokeInBatches(canvasContext, wallLines, { colour: palette.truth, width: WALL_WIDTH, lineCap: 'round' });
 }
 
 function hatchVisibleArea(canvasContext: LayerDrawContext['canvasContext'], { width, height }: PictureView, lineColour: string) {

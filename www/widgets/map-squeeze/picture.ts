@@ -4,11 +4,11 @@ import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { createDensityRamp, createLineLegend, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
-import { CachedImage, MemoizedResult, strokeInBatches } from '../../scene/cache.ts';
+import { CachedImage, CachedLayer, MemoizedResult, strokeInBatches } from '../../scene/cache.ts';
 import { drawCallouts } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { PictureView, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
-import { WallLayer, cellCornerOf, type CellGrid } from '../../scene/walls.ts';
+import { cellCornerOf, drawWalls, type CellGrid } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
 import { clampNumber } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
@@ -54,7 +54,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
   plan: Plan = { bounds: new Float64Array(4), walls: new Float64Array() };
   /** Cells of the map; null for a floor plan. The walls of a grid outline its cells, and cannot be moved. */
   grid: CellGrid | null = null;
-  #wallLayer = new WallLayer(this.plan, null);
+  /** Cached drawing of the map, which may have thousands of walls or cells. It changes only with the map, the view or the colours. */
+  #wallLayer = new CachedLayer();
   /** Corners of cells around the known part of the map. This part may be much smaller than the map. */
   #knownCorners: ArrayLike<number> = [];
   #densityImage = new CachedImage();
@@ -65,7 +66,6 @@ export class FloorPicture extends SamplesPicture<Scene> {
     if (plan.bounds.some((bound, i) => bound !== this.plan.bounds[i])) this.pictureView.clearTarget();
     this.plan = plan;
     this.grid = grid;
-    this.#wallLayer = new WallLayer(plan, grid);
     this.#knownCorners = grid?.unknown ? knownCornersOf(grid, grid.unknown) : plan.walls;
   }
 
@@ -114,11 +114,11 @@ export class FloorPicture extends SamplesPicture<Scene> {
         if (through) drawPaths(drawContext, paths, through.colour);
         if (accepted) drawSamples(drawContext, posesByOutcome.accepted, accepted.colour);
         if (through) drawSamples(drawContext, posesByOutcome.through, through.colour);
-        this.#wallLayer.drawWalls(drawContext, unknown !== undefined);
+        drawWalls(drawContext, this.#wallLayer, this.plan, this.grid, unknown !== undefined);
         if (rejected) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
       } else {
         this.#drawDensity(drawContext, scene);
-        this.#wallLayer.drawWalls(drawContext, unknown !== undefined);
+        drawWalls(drawContext, this.#wallLayer, this.plan, this.grid, unknown !== undefined);
         if (through) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;

@@ -49,7 +49,7 @@ function navigationHtmlOf(linkTo, pagePath) {
   return `<nav class="site" aria-label="Site">${linkHtmls.join('\n')}\n<a href="${homepage}">Source</a></nav>\n`;
 }
 
-/** Returns the address to which inline code of a document links: a page of the site, or for a tag a page with only this figure. */
+/** Returns the address to which inline code of a document links: a page of the site or, if the code is the tag of a figure, a page that shows only that figure. */
 function linkAddressOf(/** @type {string} */ codeText) {
   if (codeText in TOP_LINKS) return codeText;
   const [, widgetTag, attributeText] = codeText.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];

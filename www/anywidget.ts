@@ -61,7 +61,7 @@ function renderWidget({ model: widgetModel, el: outputElement }: { model: Widget
       if (!element.simulation) return;
       const ownTraits = traitPairs.filter(([, propertyName]) => !GLOBAL_ATTRIBUTES.includes(propertyName));
       const traitValues = ownTraits.map(([traitName, propertyName]) => [traitName, toJsonValue(element[propertyName])] as [string, unknown]);
-      // Null values, such as "no preset", are written last. Other views apply the values in this order, and a null that follows from the other values changes nothing.
+      // Null values, such as "no preset", are written last. Other views of the figure apply the values in this order. A null that the other values imply then changes nothing.
       isWriting = true;
       for (const isNull of [false, true]) for (const [traitName, traitValue] of traitValues) if ((traitValue === null) === isNull) setTrait(traitName, traitValue);
       isWriting = false;

@@ -19,7 +19,7 @@ export interface Declaration {
   key: string;
   /** Key of the group or list that contains the setting. */
   in?: string;
-  /** Key of a list setting. If this setting changes, the last numbers of the list become this setting times the factors in `weights`. */
+  /** Key of the list setting whose last numbers follow from this setting. They are this setting times the factors in `weights`. */
   of?: string;
   /** Factors by which this setting is multiplied to give the last numbers of the list setting `of`. */
   weights?: number[];

@@ -242,7 +242,7 @@ const MIN_GROUP_LEGS: usize = 20;
 /// Maximum difference of two scales, in standard errors, that chance explains. Their 95 % intervals then overlap.
 const MAX_SCALE_STD_ERRORS: f64 = 2.8;
 
-/// Difference of two scales that is too small to matter.
+/// Difference of two scales of the odometry that is too small to matter.
 const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
@@ -387,13 +387,13 @@ fn match_check(leg_set: &LegSet, drive: usize, systematic: &Systematic) -> Optio
     }
     let [turn_ratio, drive_ratio] = [&mut turn_ratios, &mut drive_ratios]
         .map(|ratios| (ratios.len() >= MIN_LEGS).then(|| median(ratios)));
-    // Values below the allowed range are reserved for a reference that is a copy of the odometry.
+    // A mismatch below the allowed range would mean that the reference is a copy of the odometry, which is found by other means.
     let mismatch_of = |ratio: f64| (ratio - 1.0).abs().max(MIN_RELATIVE_ERROR);
     let is_mirrored = turn_ratio.is_some_and(|ratio| (ratio + 1.0).abs() < MIRRORED_TOLERANCE);
     let outlier_fraction = Some(outlier_count as f64 / leg_count as f64);
     let mismatches = [
         (turn_ratio.map(mismatch_of), MAX_TURN_MISMATCH),
-        // The drives of a mirrored reference differ by chance, because its mount yaw and lever arm are meaningless.
+        // With a mirrored reference, the fitted mount yaw and lever arm are meaningless, and so is the ratio of the drives.
         (drive_ratio.map(mismatch_of).filter(|_| !is_mirrored), MAX_DRIVE_MISMATCH),
         (
             outlier_fraction.filter(|fraction| {

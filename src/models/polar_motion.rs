@@ -24,7 +24,8 @@ pub struct PolarMotion {
     pub last_turn: [f64; 2],
     /// Variance of the last turn, rad².
     pub last_turn_variance: f64,
-    /// Turn of the command, rad. Of the logarithms of a pose, and of the arcs to a position, those with the turn nearest to it are used.
+    /// Turn of the command, rad. A pose has several logarithms, and a position several arcs that lead to it: the one whose turn is nearest to this turn
+    /// is used.
     pub commanded_turn: f64,
 }
 

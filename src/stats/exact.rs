@@ -73,7 +73,7 @@ impl UnitMotionMoments {
 }
 
 impl ExactMoments {
-    /// Returns the moments of a motion. Given the noise of the bearing, the position is linear in the length: of an arc of turn φ, it is
+    /// Returns the moments of a motion. For a given bearing, and thus a given turn φ, the end of an arc of length s is linear in s:
     /// s·(sin φ/φ, (1 − cos φ)/φ).
     #[inline(never)]
     pub fn new(motion: &PolarMotion) -> Self {

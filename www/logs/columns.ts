@@ -154,7 +154,7 @@ export function isOtherQuantity(columnName: string): boolean {
   return UNREAD_QUANTITIES.test(dottedName) || ROW_NUMBERS_AND_GLOBE.test(dottedName);
 }
 
-/** Returns the name that the user gives a column. If this name states no unit, the unit that the file states for the column is added, where it fits. */
+/** Returns the name that the user gives a column. If this name states no unit, the unit that the file states for the column is added, provided that the column may have such a unit. */
 export function addUnitInFile(givenName: string, nameInFile: string): string {
   const unitText = (UNIT_IN_BRACKETS.exec(nameInFile) ?? UNIT_AT_END_PATTERN.exec(nameInFile))?.[1] ?? '';
   const nameWithUnit = `${givenName} [${unitText}]`;
@@ -207,7 +207,7 @@ export function groupColumnsByPrefix(columnNames: string[], isTime: (index: numb
     // If a table has only one path, a heading without a prefix belongs to that path. Next to velocities without a prefix, the heading belongs to the odometry instead.
     if (tableGroup?.fieldColumns.yaw && !isOdometryHeading && pathGroups.length === 1 && columnGroup === pathGroups[0]) fieldColumns.yaw ??= tableGroup.fieldColumns.yaw;
     columnGroup.rowClocks = [...new Set([...columnGroup.rowClocks, ...sharedClocks])].slice(0, 2);
-    // If a table has only one clock, all of its groups use it.
+    // If a table has only one clock, all groups of its columns use this clock.
     if (columnGroup.rowClocks.length === 0 && allClocks.length === 1) columnGroup.rowClocks = allClocks;
     const hasPoses = hasFields(fieldColumns, 'x', 'y') && headingFieldsOf(fieldColumns).length > 0;
     if (columnGroup.rowClocks.length > 0) columnGroup.groupKind = hasPoses ? 'poses' : hasCommands ? 'commands' : hasFields(fieldColumns, 'x', 'y') ? 'positions' : null;

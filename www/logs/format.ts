@@ -75,7 +75,7 @@ function isDataRow(rowCells: string[]): boolean {
   return numberCount >= 2 && 2 * numberCount >= filledCells.length;
 }
 
-/** Returns the separator with which the lines have most numbers or, if they have no numbers, most cells. */
+/** Returns the separator that splits the lines into the most numbers or, if there are no numbers, into the most cells. */
 function separatorOf(lineTexts: string[]): string {
   const declaredSeparator = lineTexts.map((lineText) => /^"?sep=(.)"?$/i.exec(lineText)?.[1]).find((separatorMatch) => separatorMatch !== undefined);
   if (declaredSeparator) return declaredSeparator;

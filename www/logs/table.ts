@@ -68,7 +68,7 @@ export async function openTable(sourceFile: SourceFile, optionsOf: FindOptions):
         return logReaders;
       };
       let logReaders = (await readWithChange()) as LogReader[];
-      // A robot turns about its vertical axis, so that the tilt of this axis hardly varies. Columns are read in another order if the tilt of Z then varies far less.
+      // A robot turns about its vertical axis, so that the tilt of this axis hardly varies. If the tilt of Z varies far less with Y up, or with quaternions that start with w, the columns are read so.
       for (const changeName of ['yUp', 'wFirst'] as const) {
         if (!logReaders.some(({ rows: rowCollector }) => rowCollector.tiltCosineSpread > MIN_TILT_SPREAD)) break;
         const changedReaders = await readWithChange(changeName);

@@ -25,8 +25,8 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::ops::Range;
 
-/// Maximum number of parts of motions in a timing trial: the number of samples times the parts of each. A longer trial would block the
-/// page.
+/// Maximum size of a timing trial: the number of samples times the number of parts into which the sampler splits each motion. A longer
+/// trial would block the page.
 pub const MAX_TRIAL_PARTS: u64 = 100_000;
 
 /// Simulation of the Map Squeeze widget: a map, settings, random numbers, and the attempts shown (see [`Attempt`]).

@@ -105,7 +105,7 @@ fn one_bad_drive_of_two_is_recognized() {
     }
 }
 
-/// The robot drives along an eight, half of which takes 20 s, and the clocks differ by 20 s. At equal times the odometry therefore turns right
+/// The robot drives along a figure of eight, half of which takes 20 s, and the clocks differ by 20 s. At equal times the odometry therefore turns right
 /// where the reference turns left.
 #[test]
 fn a_drive_along_an_eight_is_not_called_mirrored() {

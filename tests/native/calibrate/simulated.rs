@@ -51,7 +51,7 @@ pub struct Simulation {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SampleTimes {
-    /// Odometry and reference both have a sample each 50 ms.
+    /// Odometry and reference both have a sample every 50 ms.
     Synchronous,
     /// Odometry and reference have samples at unrelated times. Their sample intervals are these multiples of [`FINE_STEP_SECONDS`]. The
     /// noise of a leg is then a random walk.
@@ -192,7 +192,7 @@ impl Simulation {
         }
     }
 
-    /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.
+    /// Returns v and ω of a random motion: a straight drive, a bend, a turn on the spot or, unless the rule is Table 5.6, a drive in reverse.
     fn sample_velocity(&self, rng: &mut impl Rng) -> [f64; 2] {
         let [v, turn_rate] = [rng.random_range(0.2..0.6), rng.random_range(-0.5..0.5)];
         match rng.random_range(0..6) {

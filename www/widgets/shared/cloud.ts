@@ -115,7 +115,7 @@ export class Cloud extends FigureController {
       if (performance.now() > endTime) return false;
       const shownBefore = shown;
       shown = this.#simulation.addSamples(Math.min(targetCount - shown, block));
-      // If no sample was added, the simulation has given up.
+      // If no sample was added, the simulation has given up: it accepts too few samples.
       if (shown === shownBefore) break;
       this.figure.settings.isViewModelStale = true;
     }

@@ -142,7 +142,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Configures a new simulation for a state, and may add missing fields to the state. Throws a TypeError or RangeError for an invalid state. */
   enterState(simulation: Simulation, figureState: StateValues) {
     const stateSettings = this.settings.pickSettings(figureState);
-    if (this.cloud) this.cloud.configure(simulation as any, stateSettings, figureState.shown);
+    if (this.cloud) (simulation as any).configureFirst(stateSettings, figureState.shown);
     else simulation.configure(stateSettings);
   }
 

@@ -85,7 +85,7 @@ export class FigureSettings extends FigureController {
   #configureSimulation(settingValues: StateValues) {
     const { simulation, cloud } = this.figure;
     if (!simulation) return;
-    this.#currentSettings = Object.freeze(cloud ? cloud.configure(simulation, settingValues) : simulation.configure(settingValues));
+    this.#currentSettings = Object.freeze(cloud ? simulation.configureFirst(settingValues, this.elementState.shown) : simulation.configure(settingValues));
     this.isViewModelStale = true;
   }
 

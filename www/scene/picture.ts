@@ -46,7 +46,7 @@ export class FigurePicture<Scene, Name extends string = string> {
 }
 
 /** Maximum distance between the pointer and the sample that it selects, CSS pixels. */
-const SELECTION_RADIUS = 14;
+export const SELECTION_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends FigurePicture<Scene> {

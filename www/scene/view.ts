@@ -14,6 +14,9 @@ const MIN_FILL = 0.45;
 /** Time constant of the animation from one extent to the next, ms. */
 const EASING_MS = 90;
 
+/** Distance from the mean of a cloud, in standard deviations, up to which a view shows the cloud. */
+export const VIEWED_DEVIATIONS = 3.2;
+
 /** Visible part of the world in a picture, with the transform to pixels. */
 export class PictureView {
   /** Visible extent. An animation moves it to `#targetExtent`. */

@@ -6,8 +6,8 @@ import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { addTurnArc, createDensityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
 import { MemoizedResult, CachedImage } from '../../scene/cache.ts';
-import { FigurePicture } from '../../scene/picture.ts';
-import { cornersAround, extentOf } from '../../scene/view.ts';
+import { FigurePicture, SELECTION_RADIUS } from '../../scene/picture.ts';
+import { VIEWED_DEVIATIONS, cornersAround, extentOf } from '../../scene/view.ts';
 import { formatInteger } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphPoint, type Outlines } from './morph.ts';
 import { stdOfVariance, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
@@ -26,14 +26,8 @@ const MAX_HEADING_RAYS = 400;
 /** Standard deviation (pixels) below which a cloud is drawn as one point. */
 const MIN_CLOUD_DEVIATION = 0.6;
 
-/** Distance from the mean of a cloud, in standard deviations, up to which a view shows the cloud. */
-const VIEWED_DEVIATIONS = 3.2;
-
 /** Radius of the ring at the end of the arc, pixels. */
 const HANDLE_RADIUS = 7.5;
-
-/** Maximum distance from the pointer to the robot that a click selects, CSS pixels. */
-const SELECTION_RADIUS = 14;
 
 /** Order in which outlines are painted, and order in which the legend lists them. */
 const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies LineName[];

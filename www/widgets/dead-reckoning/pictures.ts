@@ -5,16 +5,13 @@ import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { drawDots, drawEarlierOutlines, drawOutlines, drawRobot, createLineLegend, createLineStyles, styleOutlines } from '../../scene/draw.ts';
 import { FigurePicture } from '../../scene/picture.ts';
-import { PictureView, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
+import { PictureView, VIEWED_DEVIATIONS, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity } from '../../scene/canvas.ts';
 
 /** Data that the two pictures show: results of the simulation, and the names of the visible lines. */
 export type Scene = import('./settings.ts').ViewModel & { overlays: string[] };
-
-/** Distance from the mean of a cloud, in standard deviations, up to which the picture of a step shows the cloud. */
-const VIEWED_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at some steps (milestones) along the path: maximum number per cloud, and opacity. */
 const MILESTONE_DOTS = { maxCount: 200, opacity: 0.4 };

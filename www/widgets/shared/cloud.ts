@@ -81,14 +81,9 @@ export class Cloud extends FigureController {
     if (this.playing && prefersReducedMotion()) this.addAllSamples();
   }
 
-  /** Changes settings, and draws one block of samples. Later frames add the other samples. Returns all settings. */
-  configure(simulation: GrowingSimulation, settings: StateValues, shownCount = this.#elementState.shown): StateValues {
-    return simulation.configureFirst(settings, shownCount);
-  }
-
   #restartSampling() {
     this.#elementState.shown = 0;
-    if (this.#latestCounts.shown > 0) this.configure(this.#simulation, {});
+    if (this.#latestCounts.shown > 0) this.#simulation.configureFirst({}, 0);
     this.figure.settings.isViewModelStale = true;
   }
 

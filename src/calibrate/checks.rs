@@ -39,7 +39,9 @@ pub enum CheckName {
     )]
     EnoughLegs,
     /// Fraction of the legs that were left out of the fit.
-    #[error("Many legs were lost. The α's describe the remaining legs.")]
+    #[error(
+        "Many legs were lost, to the causes counted under lost legs. The α's describe the remaining legs. Record both logs for the whole drive and without gaps, and look at the jumps of the reference and at the rows left out."
+    )]
     LegsLost,
     /// Median length of a leg, divided by the length that the options ask for.
     #[error(
@@ -120,21 +122,6 @@ pub enum FailureCause {
         "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of either: the logs cannot show which one is wrong, and the α's are the same."
     )]
     Mirrored,
-    /// Most lost legs lack a pose of the reference.
-    #[error(
-        "Many legs were lost. The α's describe the remaining legs. Most lack the reference: record it for the whole drive."
-    )]
-    WithoutReference,
-    /// Most lost legs cross a break, at which the pose may have jumped.
-    #[error(
-        "Many legs were lost. The α's describe the remaining legs. Most cross a break: look at the jumps and at the rows left out."
-    )]
-    AcrossBreaks,
-    /// Most lost legs are too long because of a pause of the recording.
-    #[error(
-        "Many legs were lost. The α's describe the remaining legs. Most are stretched by a pause: record both logs without gaps."
-    )]
-    AcrossPauses,
 }
 
 /// Check of a log or of a fit, with its outcome.
@@ -216,12 +203,11 @@ pub(super) fn log_checks(leg_set: &LegSet, lost: &LostLegs, inflation: f64) -> V
     let outlier_count = leg_set.outliers.iter().filter(|is_outlier| **is_outlier).count();
     let lost_count = lost.total() - lost.standing;
     let lost_fraction = lost_count as f64 / (leg_count + lost_count) as f64;
-    let legs_lost = Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]).with_cause(lost.main_cause());
     let mut checks = vec![
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // The factor on the α's is infinite if no factor makes the predictions cover the errors over windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
-        legs_lost,
+        Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]),
         Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
         Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
     ];
@@ -281,7 +267,7 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
 /// Returns the scale of turns of single legs minus that of windows of 2 m, and the standard error of this difference.
 ///
 /// Noise of the odometry makes the scale of small turns too small (regression dilution). Over a window, turns add up more than their noise.
-fn compare_long_turns(Fit { leg_set, maximum, .. }: &Fit, correlation: f64) -> Option<[f64; 2]> {
+fn compare_long_turns(Fit { leg_set, maximum }: &Fit, correlation: f64) -> Option<[f64; 2]> {
     let [_, windows, _] = leg_set.windows(0..leg_set.legs.len(), &maximum.parameters);
     if windows.len() < MIN_GROUP_LEGS {
         return None;
@@ -299,15 +285,15 @@ fn compare_long_turns(Fit { leg_set, maximum, .. }: &Fit, correlation: f64) -> O
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are
 /// not estimated again. None if the legs do not identify the scale.
 fn scale_of(
-    Fit { leg_set, maximum, .. }: &Fit,
+    Fit { leg_set, maximum }: &Fit,
     scale: SystematicError,
     correlation: f64,
     is_selected: impl Fn(usize) -> bool,
 ) -> Option<[f64; 2]> {
-    let mut error_mask = [false; ERROR_COUNT];
-    error_mask[scale as usize] = true;
-    let residuals = leg_set.residuals(error_mask, |leg| is_selected(leg) && !leg_set.outliers[leg]);
-    if residuals.observations.len() < MIN_GROUP_LEGS {
+    let mut residuals = leg_set.residuals();
+    residuals.estimated = std::array::from_fn(|error| error == scale as usize);
+    (0..).zip(&mut residuals.is_fitted).for_each(|(leg, is_fitted)| *is_fitted &= is_selected(leg));
+    if residuals.is_fitted.iter().filter(|is_fitted| **is_fitted).count() < MIN_GROUP_LEGS {
         return None;
     }
     let filter_result = residuals.filter_result(&maximum.parameters);

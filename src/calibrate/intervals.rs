@@ -24,12 +24,10 @@ const DISTANCE_TOLERANCE: f64 = 0.02;
 /// the end is therefore multiplied by √(S/C) if this is above 1, with C the inverse information and S the sandwich covariance over blocks
 /// of legs. If the errors of neighbouring legs have the correlation ρ, their squares have the correlation ρ², and the factor is at least
 /// √((1 + ρ²)/(1 − ρ²)).
-pub(super) fn intervals(
-    Fit { residuals, maximum, .. }: &Fit,
-    correlation: f64,
-) -> impl Fn(usize) -> [f64; 2] {
-    let threshold = student_95(residuals.observations.len().saturating_sub(PARAMETER_COUNT));
-    let score_blocks = maximum.scores.chunks(legs_per_score_block(residuals.observations.len()));
+pub(super) fn intervals(Fit { leg_set, maximum }: &Fit, correlation: f64) -> impl Fn(usize) -> [f64; 2] {
+    let residuals = leg_set.residuals();
+    let threshold = student_95(maximum.scores.len().saturating_sub(PARAMETER_COUNT));
+    let score_blocks = maximum.scores.chunks(legs_per_score_block(maximum.scores.len()));
     // At the maximum the mean score is 0, except for a variance that is 0.
     let mean_score = maximum.score / score_blocks.len() as f64;
     let block_scores: Vec<Parameters> =
@@ -111,7 +109,7 @@ const MIN_FREE_INFORMATION: f64 = 0.02;
 const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.
-pub(super) fn identifiability(Fit { leg_set, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
+pub(super) fn identifiability(Fit { leg_set, maximum }: &Fit) -> Vec<Option<NotIdentifiable>> {
     let model = leg_set.options.model;
     let reason_for = |alpha: usize| {
         let marginal_information = maximum.information[(alpha, alpha)];

@@ -4,7 +4,6 @@
 //! real wheels mostly grows with the length itself.
 
 use super::Drive;
-use super::checks::FailureCause;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::MAX_SPIN_DISTANCE;
 use nalgebra::Vector3;
@@ -105,17 +104,6 @@ impl LostLegs {
     pub fn total(&self) -> usize {
         self.without_reference + self.across_breaks + self.across_pauses + self.standing
     }
-
-    /// Returns the most frequent cause. A standing robot needs no remedy, and does not count.
-    pub(super) fn main_cause(&self) -> FailureCause {
-        if self.without_reference > self.across_breaks.max(self.across_pauses) {
-            FailureCause::WithoutReference
-        } else if self.across_breaks > self.across_pauses {
-            FailureCause::AcrossBreaks
-        } else {
-            FailureCause::AcrossPauses
-        }
-    }
 }
 
 /// Distance (m) above which the motion of a leg counts as a drive, and turn (rad) above which it counts as a turn.
@@ -183,7 +171,8 @@ impl Drive {
         })
     }
 
-    /// Cuts the drive, which has the index `drive`, into legs. Each leg begins where the previous leg ended. Omitted legs are added to `lost_legs`.
+    /// Cuts the drive, which has the index `drive`, into legs. Adds the legs to `legs`, and the numbers of omitted legs to `lost_legs`. Each
+    /// leg begins where the previous leg ended.
     ///
     /// `clock_offset` (s) is the time of the reference's clock minus the time of the odometry's clock. A leg may lead across a pause of a
     /// trajectory, because its start and end poses are known, but not across a break.
@@ -192,10 +181,10 @@ impl Drive {
         drive: usize,
         leg_length: LegLength,
         clock_offset: f64,
+        legs: &mut Vec<Leg>,
         lost_legs: &mut LostLegs,
-    ) -> Vec<Leg> {
+    ) {
         let Self { odometry, reference } = self;
-        let mut legs: Vec<Leg> = Vec::new();
         let mut leg_start: Option<LegEnd> = None;
         for reading in odometry.samples() {
             let (reading_time, pose) = reading;
@@ -230,16 +219,16 @@ impl Drive {
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
                 lost_legs.standing += 1;
             } else {
+                let follows_leg = |before: &Leg| before.drive == drive && before.times[1] == start.time;
                 legs.push(Leg {
                     times,
                     odometry: poses,
                     velocities: [start.velocity, end.velocity],
                     reference: [start_reference, end_reference],
-                    follows: legs.last().is_some_and(|previous_index| previous_index.times[1] == start.time),
+                    follows: legs.last().is_some_and(follows_leg),
                     drive,
                 });
             }
         }
-        legs
     }
 }

@@ -10,8 +10,8 @@
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
 //! with N residuals and q errors. A Kalman filter with the state eᵢ gives ℓ: it turns residuals into innovations νᵢ, which are independent, with
-//! covariances Fᵢ. A backward pass gives the score (Koopman and Shephard 1992). Derivatives of the innovations give the Fisher information
-//! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
+//! covariances Fᵢ. Derivatives of the innovations give the score, and the Fisher information Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey
+//! 1989, 3.4).
 
 use super::residuals::{ERROR_COUNT, ErrorMask, Model, Observation, SystematicError};
 use super::result::LegFit;
@@ -45,13 +45,15 @@ const MIN_STD: f64 = 1e-7;
 /// Mask of the parameters that are fitted. All other parameters are kept fixed.
 pub(super) type FreeMask = [bool; PARAMETER_COUNT];
 
-/// Residuals of several legs, with the model, and the parameters and systematic errors that are fitted to them.
+/// Residuals of successive legs, with the model, and the parameters and systematic errors that are fitted to them.
 #[derive(Clone, Debug)]
-pub(super) struct Residuals {
+pub(super) struct Residuals<'a> {
     pub model: Model,
     pub free: FreeMask,
     pub estimated: ErrorMask,
-    pub observations: Vec<Observation>,
+    pub observations: &'a [Observation],
+    /// True for each leg that is fitted.
+    pub is_fitted: Vec<bool>,
 }
 
 /// Innovation of one leg: its residual and the Jacobian of the residual, minus their predictions from the previous legs.
@@ -65,6 +67,7 @@ pub(super) struct Innovation {
     /// Kalman gain of the reference's error at the end of the leg.
     gain: Matrix3<f64>,
     determinant: f64,
+    is_fitted: bool,
 }
 
 /// Innovations of all legs under given variances, and generalized least squares of the systematic errors.
@@ -95,36 +98,40 @@ pub(super) struct Expansion {
     pub covariance: Information,
 }
 
-/// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not
-/// follow the previous leg starts at a new pose of the reference.
-// The function is not generic, because a second instance would make the module larger.
-pub(super) fn innovations<'a>(
-    model: Model,
-    parameters: &Parameters,
-    observations_with_follows: Box<dyn Iterator<Item = (&'a Observation, bool)> + 'a>,
-) -> impl Iterator<Item = Innovation> {
-    let reference_covariance = reference_covariance(parameters);
-    let (mut mean, mut prior_covariance) = (Columns::zeros(), reference_covariance);
-    observations_with_follows.map(move |(leg, follows_previous)| {
-        let [start, end] = &leg.reference_jacobians;
-        if !follows_previous {
+impl Residuals<'_> {
+    /// Returns the innovations of all legs, by a Kalman filter whose state is the error of the reference at the end of a leg. Nothing is
+    /// known about this error after a leg that is not fitted, and before a leg that does not follow the previous leg.
+    pub fn innovations(&self, parameters: &Parameters) -> impl Iterator<Item = Innovation> {
+        let reference_covariance = reference_covariance(parameters);
+        let (mut mean, mut prior_covariance) = (Columns::zeros(), reference_covariance);
+        self.observations.iter().zip(&self.is_fitted).map(move |(leg, is_fitted)| {
+            let [start, end] = &leg.reference_jacobians;
+            if !leg.follows {
+                (mean, prior_covariance) = (Columns::zeros(), reference_covariance);
+            }
+            let columns = leg.columns - product(start, &mean);
+            let scaled_end = product(end, &reference_covariance);
+            let mut covariance =
+                propagated(start, &prior_covariance) + product(&scaled_end, &end.transpose());
+            let wheel_variances = self.model.wheel_variances(&leg.coefficients, parameters);
+            let is_unobserved = leg.residuals.map(f64::is_nan);
+            for k in 0..3 {
+                covariance[(k, k)] +=
+                    wheel_variances[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
+            }
+            let weight = covariance.try_inverse().unwrap_or_default();
+            let gain = product(&scaled_end.transpose(), &weight);
             (mean, prior_covariance) = (Columns::zeros(), reference_covariance);
-        }
-        let columns = leg.columns - product(start, &mean);
-        let scaled_end = product(end, &reference_covariance);
-        let mut covariance = propagated(start, &prior_covariance) + product(&scaled_end, &end.transpose());
-        let wheel_variances = model.wheel_variances(&leg.coefficients, parameters);
-        let is_unobserved = leg.residuals.map(f64::is_nan);
-        for k in 0..3 {
-            covariance[(k, k)] += wheel_variances[k] + if is_unobserved[k] { 1.0 } else { MIN_STD * MIN_STD };
-        }
-        let weight = covariance.try_inverse().unwrap_or_default();
-        let gain = product(&scaled_end.transpose(), &weight);
-        mean = product(&gain, &columns);
-        prior_covariance = reference_covariance - product(&gain, &scaled_end);
-        let variances = std::array::from_fn(|k| if is_unobserved[k] { f64::NAN } else { covariance[(k, k)] });
-        Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
-    })
+            if *is_fitted {
+                mean = product(&gain, &columns);
+                prior_covariance -= product(&gain, &scaled_end);
+            }
+            let variances =
+                std::array::from_fn(|k| if is_unobserved[k] { f64::NAN } else { covariance[(k, k)] });
+            let determinant = covariance.determinant();
+            Innovation { columns, variances, weight, gain, determinant, is_fitted: *is_fitted }
+        })
+    }
 }
 
 impl FilterResult {
@@ -138,8 +145,9 @@ impl FilterResult {
             let weighted_residual = innovation.weight * innovation.without(errors);
             innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted_residual)
         };
-        let scores = innovations.chunks(legs_per_score_block(innovations.len())).map(|score_block| {
-            let score: ErrorVector = score_block.iter().map(score_of_leg).sum();
+        let scores = innovations.chunks(legs_per_score_block(innovations.len())).map(|block| {
+            let fitted_legs = block.iter().filter(|leg| leg.is_fitted);
+            let score: ErrorVector = fitted_legs.map(score_of_leg).sum();
             score * score.transpose()
         });
         let sandwich = covariance * scores.sum::<ErrorMatrix>() * covariance;
@@ -147,9 +155,9 @@ impl FilterResult {
         std::array::from_fn(|i| (variance_factor * covariance[(i, i)]).max(sandwich[(i, i)]).max(0.0).sqrt())
     }
 
-    /// Returns the innovation of each leg, without the part that the estimated errors explain.
-    pub fn leg_fits(&self) -> impl Iterator<Item = LegFit> {
-        self.innovations.iter().map(|innovation| innovation.leg_fit(&self.errors, false))
+    /// Returns the innovation of each leg, without the part that systematic errors explain.
+    pub fn leg_fits(&self, errors: &ErrorVector) -> Vec<LegFit> {
+        self.innovations.iter().map(|innovation| innovation.leg_fit(errors)).collect()
     }
 
     /// Returns the estimates of the systematic errors in a mask; 0 for all others.
@@ -171,23 +179,26 @@ impl Innovation {
 
     /// Returns the innovation, without the part that systematic errors explain, with its standard deviations and its squared Mahalanobis
     /// distance.
-    pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
+    pub fn leg_fit(&self, errors: &ErrorVector) -> LegFit {
         let (innovation, stds) = (self.without(errors), self.variances.map(f64::sqrt));
         LegFit {
             stds,
             standardized: std::array::from_fn(|k| innovation[k] / stds[k]),
             squared: innovation.dot(&(self.weight * innovation)),
-            is_outlier,
+            is_outlier: !self.is_fitted,
         }
     }
 }
 
-impl Residuals {
+impl Residuals<'_> {
     pub fn filter_result(&self, parameters: &Parameters) -> FilterResult {
-        let observations = Box::new(self.observations.iter().map(|leg| (leg, leg.follows)));
-        let innovations: Vec<Innovation> = innovations(self.model, parameters, observations).collect();
+        let innovations: Vec<Innovation> = self.innovations(parameters).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
-        for Innovation { columns, weight, determinant, .. } in &innovations {
+        let mut residual_count = 0;
+        for Innovation { columns, variances, weight, determinant, .. } in
+            innovations.iter().filter(|leg| leg.is_fitted)
+        {
+            residual_count += variances.iter().filter(|variance| !variance.is_nan()).count();
             // If variances differ by many orders of magnitude, rounding can make the covariance indefinite.
             log_det += if *determinant > 0.0 { libm::log(*determinant) } else { f64::INFINITY };
             gram += columns.tr_mul(&product(weight, columns));
@@ -196,8 +207,6 @@ impl Residuals {
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
         let weighted_residual: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT).into_owned();
         let errors = covariance * weighted_residual;
-        let residuals = self.observations.iter().flat_map(|leg| leg.residuals);
-        let residual_count = residuals.filter(|residual| !residual.is_nan()).count();
         let estimated_count = self.estimated.iter().filter(|is_estimated| **is_estimated).count();
         let degrees_of_freedom = residual_count as f64 - estimated_count as f64;
         let deviance = log_det + log_det_information + gram[(ERROR_COUNT, ERROR_COUNT)]
@@ -208,82 +217,47 @@ impl Residuals {
     }
 
     /// Returns the expansion of the log-likelihood around parameters, from the result of the Kalman filter with these parameters.
-    pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
-        let (scores, information) = (self.scores(&filtered), self.information(&filtered));
-        let (covariance, _) = masked_inverse(&information, &self.free);
-        let score = scores.iter().sum();
-        Expansion { parameters: *parameters, filter_result: filtered, score, scores, information, covariance }
-    }
-
-    /// Returns the score of each leg: its part of −½ tr[(V⁻¹ − U M Uᵀ) ∂V], with U = V⁻¹ (X, r).
     ///
-    /// With the estimated errors β and their covariance C, M is (−β, 1)(−β, 1)ᵀ + C. A backward pass gives the blocks of U and V⁻¹
-    /// (disturbance smoother, Koopman and Shephard 1992). Blocks of the next leg have a prime, K is the gain, and T = A' K:
-    ///
-    /// - Uᵢ = F⁻¹ν − Tᵀ U'
-    /// - (V⁻¹)ᵢᵢ = F⁻¹ + Tᵀ (V⁻¹)' T, and (V⁻¹)ᵢ,ᵢ₊₁ = −Tᵀ (V⁻¹)'
-    fn scores(&self, FilterResult { innovations, errors, covariance, .. }: &FilterResult) -> Vec<Parameters> {
-        let error_contrast = -errors.push(-1.0);
-        let mut error_weights = error_contrast * error_contrast.transpose();
-        let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
-        error_block += covariance;
-        let mut scores = vec![Parameters::zeros(); self.observations.len()];
-        let (mut next_start, mut next_inverse) = (Matrix3::zeros(), Matrix3::zeros());
-        let mut next_smoothed = Columns::zeros();
-        let leg_count = self.observations.iter().zip(innovations).zip(&mut scores);
-        for ((leg, Innovation { columns, weight, gain, .. }), score) in leg_count.rev() {
-            let [start, end] = &leg.reference_jacobians;
-            let transition_matrix = product(&next_start, gain);
-            let smoothed = product(weight, columns) - product(&transition_matrix.transpose(), &next_smoothed);
-            let carried_inverse = product(&transition_matrix.transpose(), &next_inverse);
-            let inverse_covariance = weight + product(&carried_inverse, &transition_matrix);
-            let weighted_residual = product(&smoothed, &error_weights);
-            let own_block = inverse_covariance - product(&weighted_residual, &smoothed.transpose());
-            let next_block = carried_inverse + product(&weighted_residual, &next_smoothed.transpose());
-            for (k, alphas) in self.model.component_alphas().into_iter().enumerate() {
-                for (alpha, coefficient) in alphas.into_iter().zip(leg.coefficients[k]) {
-                    score[alpha] -= 0.5 * coefficient * own_block[(k, k)];
-                }
-            }
-            let start_block = product(&own_block, start);
-            let end_block = product(&own_block, end) - 2.0 * product(&next_block, &next_start);
-            for (k, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
-                let start_part = start.column(k).dot(&start_block.column(k));
-                score[variance] -= 0.5 * (start_part + end.column(k).dot(&end_block.column(k)));
-            }
-            (next_start, next_smoothed, next_inverse) =
-                if leg.follows { (*start, smoothed, inverse_covariance) } else { Default::default() };
-        }
-        scores
-    }
-
-    /// Returns the Fisher information on the fitted parameters.
-    ///
-    /// The derivatives of a leg with respect to a parameter follow from those of the previous leg, which have a prime. K' is the gain of the
-    /// previous leg, T = A K', and G = A − T B'.
+    /// With the estimated errors β, their covariance C, and M = (−β, 1)(−β, 1)ᵀ + C, the score of a leg with the columns N = (X, r) after
+    /// the prediction is −½ tr[(F⁻¹ − F⁻¹ N M Nᵀ F⁻¹) ∂F] − tr[M Nᵀ F⁻¹ ∂N]. The derivatives of a leg follow from those of the previous
+    /// leg, which have a prime. K' is the gain of the previous leg, T = A K', and G = A − T B'.
     ///
     /// - ∂F = S + B ∂R Bᵀ with S = T S' Tᵀ + G ∂R Gᵀ + ∂D
-    /// - ∂ν = −T (∂ν' − S' F'⁻¹ν') − G ∂R B'ᵀ F'⁻¹ν'
-    fn information(&self, FilterResult { innovations, errors, .. }: &FilterResult) -> Information {
+    /// - ∂N = −T (∂N' − S' F'⁻¹N') − G ∂R B'ᵀ F'⁻¹N'
+    pub fn expansion(&self, parameters: &Parameters, filter_result: FilterResult) -> Expansion {
         let unit_parameters: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
         let reference_derivatives = unit_parameters.map(|unit| reference_covariance(&unit));
+        let contrast = -filter_result.errors.push(-1.0);
+        let mut error_weights = contrast * contrast.transpose();
+        let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
+        error_block += filter_result.covariance;
         let mut covariance_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
-        let mut innovation_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
+        let mut column_derivatives = [Columns::zeros(); PARAMETER_COUNT];
         let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
-        let (mut weighted_before, mut information) = (Vector3::zeros(), Information::zeros());
-        for (leg, innovation) in self.observations.iter().zip(innovations) {
+        let (mut weighted_before, mut information) = (Columns::zeros(), Information::zeros());
+        let mut scores = vec![Parameters::zeros(); self.observations.len()];
+        for ((leg, innovation), score) in
+            self.observations.iter().zip(&filter_result.innovations).zip(&mut scores)
+        {
             let [start, end] = &leg.reference_jacobians;
-            if !leg.follows {
+            let Innovation { columns, weight, gain, is_fitted, .. } = innovation;
+            if !leg.follows || !is_fitted {
                 (gain_before, end_before) = Default::default();
             }
-            let weight = &innovation.weight;
+            if !is_fitted {
+                continue;
+            }
             let transition_matrix = product(start, &gain_before);
             let start_gain = start - product(&transition_matrix, &end_before);
             let end_weighted = product(&end_before.transpose(), &weighted_before);
+            let weighted = product(weight, columns);
+            let column_scores = product(&weighted, &error_weights);
+            let covariance_scores = weight - product(&column_scores, &weighted.transpose());
             let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
+            let mut innovation_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
             for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
                 let (derivative, start_covariance) =
-                    (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
+                    (&mut column_derivatives[j], &mut covariance_derivatives[j]);
                 let change = product(start_covariance, &weighted_before) - *derivative;
                 *derivative = product(&transition_matrix, &change);
                 *start_covariance = propagated(&transition_matrix, start_covariance);
@@ -298,19 +272,22 @@ impl Residuals {
                     *start_covariance += propagated(&start_gain, reference);
                     covariance = *start_covariance + propagated(end, reference);
                 }
+                score[j] = -0.5 * covariance_scores.dot(&covariance) - column_scores.dot(derivative);
                 relative_derivatives[j] = product(weight, &covariance);
-                let weighted_derivative = product(weight, derivative);
+                innovation_derivatives[j] = *derivative * contrast;
+                let weighted_derivative = product(weight, &innovation_derivatives[j]);
                 let transposed_derivative = relative_derivatives[j].transpose();
                 for k in 0..=j {
                     information[(j, k)] += 0.5 * transposed_derivative.dot(&relative_derivatives[k])
                         + weighted_derivative.dot(&innovation_derivatives[k]);
                 }
             }
-            weighted_before = product(weight, &innovation.without(errors));
-            (gain_before, end_before) = (innovation.gain, *end);
+            (weighted_before, gain_before, end_before) = (weighted, *gain, *end);
         }
         information.fill_upper_triangle_with_lower_triangle();
-        information
+        let (covariance, _) = masked_inverse(&information, &self.free);
+        let score = scores.iter().sum();
+        Expansion { parameters: *parameters, filter_result, score, scores, information, covariance }
     }
 }
 

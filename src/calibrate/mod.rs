@@ -103,24 +103,25 @@ pub enum CalibrateError {
 /// # Ok::<(), motion::calibrate::TrajectoryError>(())
 /// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
-    let log = Log::new(drives, options.legs)?;
+    let mut log = Log::new(drives, options.legs)?;
     let mut fit = Fit::new(&log, options, [true; ERROR_COUNT], None);
     let systematic = fit.leg_set.systematic;
     let persistence = persistence(&fit);
     let correlation = persistence.correlation.value;
     let error_stds = fit.maximum.filter_result.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&fit, correlation);
-    let mut is_corrected: ErrorMask = std::array::from_fn(|i| options.correct[i].unwrap_or(is_constant[i]));
+    let is_allowed: ErrorMask = std::array::from_fn(|i| options.correct[i].unwrap_or(is_constant[i]));
+    let correctable: ErrorMask = std::array::from_fn(|i| is_allowed[i] && fit.leg_set.estimated[i]);
     let mut corrected = systematic;
-    for error in SystematicError::ALL.into_iter().filter(|error| !is_corrected[*error as usize]) {
+    for error in SystematicError::ALL.into_iter().filter(|error| !is_allowed[*error as usize]) {
         *corrected.get_mut(error) = Systematic::NONE.get(error);
     }
     if corrected != systematic {
-        fit = Fit::new(&log, options, is_corrected, Some((corrected, fit.maximum.parameters)));
+        fit = Fit::new(&log, options, correctable, Some((corrected, fit.maximum.parameters)));
     }
     // Errors that are left uncorrected act as noise, which can make another error unidentifiable.
-    (corrected, is_corrected) = (fit.leg_set.systematic, fit.leg_set.estimated);
-    let all_legs = fit.all_legs(&log);
+    let is_corrected = std::array::from_fn(|i| correctable[i] && fit.leg_set.estimated[i]);
+    let all_legs = fit.all_legs(&mut log);
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
     let interval_of = intervals(&fit, correlation);
@@ -133,7 +134,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
     });
-    let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.filter_result.errors);
+    let leg_fits = fit.leg_fits(&all_legs);
     let (recommended, window_checks, windows) = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = recommended.as_ref().map_or(f64::INFINITY, |recommendation| recommendation.inflation);
     let identifies_any_alpha = alphas.iter().any(Option::is_some);
@@ -152,7 +153,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         systematic,
         systematic_stds: error_stds.map(|std| (std > 0.0).then_some(std)),
         is_constant,
-        corrected,
+        corrected: fit.leg_set.systematic,
         is_corrected,
         reference_noise,
         persistence,
@@ -167,14 +168,15 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 }
 
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
-fn neighbour_correlation(Fit { residuals, maximum, .. }: &Fit) -> (f64, f64) {
-    let fits: Vec<LegFit> = maximum.filter_result.leg_fits().collect();
+fn neighbour_correlation(Fit { leg_set, maximum }: &Fit) -> (f64, f64) {
+    let fits = maximum.filter_result.leg_fits(&maximum.filter_result.errors);
     let (mut product_sum, mut square_sum, mut pair_count) = (0.0, 0.0, 0);
-    for (fit_pair, _) in fits.windows(2).zip(&residuals.observations[1..]).filter(|(_, leg)| leg.follows) {
-        for (residual_before, after) in fit_pair[0].standardized.into_iter().zip(fit_pair[1].standardized) {
-            if !residual_before.is_nan() && !after.is_nan() {
-                product_sum += residual_before * after;
-                square_sum += 0.5 * (residual_before * residual_before + after * after);
+    let pairs = fits.windows(2).zip(&leg_set.legs[1..]);
+    for (pair, _) in pairs.filter(|(pair, leg)| leg.follows && pair.iter().all(|leg| !leg.is_outlier)) {
+        for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
+            if !before.is_nan() && !after.is_nan() {
+                product_sum += before * after;
+                square_sum += 0.5 * (before * before + after * after);
                 pair_count += 1;
             }
         }

@@ -7,6 +7,7 @@ use super::likelihood::{
     identifiable_errors, masked_inverse,
 };
 use super::residuals::{ErrorMask, Observation, Systematic, SystematicError};
+use super::result::LegFit;
 use super::{CalibrateError, Drive, Options};
 use crate::geom::se2::wrap_angle;
 use std::ops::Range;
@@ -30,7 +31,7 @@ impl<'a> Log<'a> {
             if drive_index == 0 {
                 log.clock_offset = drive_offset;
             }
-            log.legs.extend(drive.cut_into_legs(drive_index, leg_length, drive_offset, &mut log.lost));
+            drive.cut_into_legs(drive_index, leg_length, drive_offset, &mut log.legs, &mut log.lost);
         }
         if log.legs.len() < MIN_LEGS {
             return Err(CalibrateError::TooFewLegs { legs: log.legs.len() });
@@ -38,13 +39,12 @@ impl<'a> Log<'a> {
         Ok(log)
     }
 
-    /// Returns legs of this log with their ends at another clock offset (s) of the first drive. An end beyond the first or last reading of the
+    /// Moves the ends of legs of this log to another clock offset (s) of the first drive. An end beyond the first or last reading of the
     /// odometry is extrapolated at its velocity.
-    fn aligned_legs(&self, legs: &[Leg], clock_offset: f64) -> Vec<Leg> {
+    fn align_legs(&self, legs: &mut [Leg], clock_offset: f64) {
         let offset_change = clock_offset - self.clock_offset;
-        let mut aligned = legs.to_vec();
         let mut previous_end = Default::default();
-        for leg in &mut aligned {
+        for leg in legs {
             let align_end = |end_index: usize| {
                 let (time, velocity) = (leg.times[end_index] - offset_change, leg.velocities[end_index]);
                 let extrapolate = || (leg.odometry[end_index].boxplus(-offset_change * velocity), velocity);
@@ -58,7 +58,6 @@ impl<'a> Log<'a> {
             leg.velocities = aligned_ends.map(|(_, (_, velocity))| velocity);
             previous_end = aligned_ends[1];
         }
-        aligned
     }
 }
 
@@ -88,28 +87,23 @@ impl LegSet {
         self.observations = self.legs.iter().map(observe_leg).collect();
     }
 
-    /// Returns true if a leg and the previous leg are selected, and the leg starts where the previous leg ends.
-    pub fn follows(&self, leg: usize, is_selected: impl Fn(usize) -> bool) -> bool {
-        self.legs[leg].follows && leg > 0 && is_selected(leg - 1) && is_selected(leg)
+    /// Returns the residuals of all legs.
+    pub fn residuals(&self) -> Residuals<'_> {
+        self.residuals_in(0..self.legs.len())
     }
 
-    /// Returns the residuals of the legs that `is_selected` accepts. Fitted parameters are the α's of the model, and each variance of the
-    /// reference that the options do not state.
-    pub fn residuals(&self, estimated: ErrorMask, is_selected: impl Fn(usize) -> bool) -> Residuals {
-        let selected_legs = (0..self.legs.len()).filter(|leg| is_selected(*leg));
-        let observation_of =
-            |leg| Observation { follows: self.follows(leg, &is_selected), ..self.observations[leg] };
+    /// Returns the residuals of the legs in `range`. All legs are fitted but the outliers. Fitted parameters are the α's of the model, and
+    /// each variance of the reference that the options do not state.
+    pub fn residuals_in(&self, range: Range<usize>) -> Residuals<'_> {
         let Options { model, position_std, yaw_std, .. } = self.options;
         let free = std::array::from_fn(|parameter| match parameter {
             POSITION_VARIANCE => position_std.is_none(),
             YAW_VARIANCE => yaw_std.is_none(),
             alpha => alpha < model.alpha_count(),
         });
-        Residuals { model, free, estimated, observations: selected_legs.map(observation_of).collect() }
-    }
-
-    pub fn inlier_residuals(&self, range: Range<usize>) -> Residuals {
-        self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
+        let is_fitted = self.outliers[range.clone()].iter().map(|is_outlier| !is_outlier).collect();
+        let observations = &self.observations[range];
+        Residuals { model, free, estimated: self.estimated, observations, is_fitted }
     }
 
     /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not
@@ -155,7 +149,6 @@ const CONVERGENCE_TOLERANCE: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
     pub leg_set: LegSet,
-    pub residuals: Residuals,
     pub maximum: Expansion,
 }
 
@@ -203,35 +196,47 @@ impl Fit {
         let mut leg_set = LegSet::new(legs.clone(), correctable_errors, options);
         for round_number in 1.. {
             let position_std = parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt());
-            leg_set.legs = log.aligned_legs(&legs, systematic.clock_offset);
+            leg_set.legs.clone_from(&legs);
+            log.align_legs(&mut leg_set.legs, systematic.clock_offset);
             leg_set.update_observations(systematic, position_std);
             let start_parameters = parameters.unwrap_or_else(|| options.initial_guess());
-            let filter_result = leg_set.inlier_residuals(0..legs.len()).filter_result(&start_parameters);
+            let filter_result = leg_set.residuals().filter_result(&start_parameters);
             leg_set.estimated = identifiable_errors(&filter_result.information, correctable_errors);
             let errors = filter_result.errors_in(&leg_set.estimated);
-            let has_new_outliers = leg_set.mark_outliers(&start_parameters, &errors, round_number);
-            let residuals = leg_set.inlier_residuals(0..legs.len());
+            let has_new_outliers = leg_set.mark_outliers(&filter_result.leg_fits(&errors), round_number);
+            let residuals = leg_set.residuals();
             let maximum = maximize(&residuals, &start_parameters, ROUND_GAIN);
             let (corrected, is_small_change) = leg_set.corrected_errors(&maximum);
             if !has_new_outliers && round_number > 1 && is_small_change || round_number == MAX_ROUNDS {
                 let maximum = maximize(&residuals, &maximum.parameters, EXACT_GAIN);
-                return Self { leg_set, residuals, maximum };
+                return Self { leg_set, maximum };
             }
             (systematic, parameters) = (corrected, Some(maximum.parameters));
         }
         unreachable!("the last round returns")
     }
 
+    /// Returns the innovations of legs under the fit.
+    pub fn leg_fits(&self, leg_set: &LegSet) -> Vec<LegFit> {
+        let Expansion { parameters, filter_result, .. } = &self.maximum;
+        let residuals = leg_set.residuals();
+        residuals
+            .innovations(parameters)
+            .map(|innovation| innovation.leg_fit(&filter_result.errors))
+            .collect()
+    }
+
     /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
-    pub fn all_legs(&self, log: &Log) -> LegSet {
+    pub fn all_legs(&self, log: &mut Log) -> LegSet {
         let Self { leg_set, maximum, .. } = self;
         if log.legs.len() == leg_set.legs.len() {
             return leg_set.clone();
         }
-        let legs = log.aligned_legs(&log.legs, leg_set.systematic.clock_offset);
+        let mut legs = std::mem::take(&mut log.legs);
+        log.align_legs(&mut legs, leg_set.systematic.clock_offset);
         let mut all_legs = LegSet::new(legs, leg_set.estimated, &leg_set.options);
         all_legs.update_observations(leg_set.systematic, maximum.parameters[POSITION_VARIANCE].sqrt());
-        all_legs.mark_outliers(&maximum.parameters, &maximum.filter_result.errors, 1);
+        all_legs.mark_outliers(&self.leg_fits(&all_legs), 1);
         all_legs
     }
 }

@@ -3,7 +3,6 @@
 
 use super::Outliers;
 use super::checks::{Check, CheckName, MAX_STD_ERRORS};
-use super::likelihood::{ErrorVector, Parameters, innovations};
 use super::optimizer::LegSet;
 use super::result::LegFit;
 use super::trajectory::median;
@@ -19,30 +18,12 @@ const MEDIAN_CHI2: f64 = 2.366;
 const LAST_RETURN_ROUND: usize = 2;
 
 impl LegSet {
-    /// Returns the innovations of all legs under `parameters`, without the part that the systematic `errors` explain. Each outlier is
-    /// filtered independently of its neighbours.
-    pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {
-        let is_inlier = |leg: usize| !self.outliers[leg];
-        let observations = self.observations.iter().enumerate();
-        let observations_with_follows = observations.map(|(i, leg)| (leg, self.follows(i, is_inlier)));
-        innovations(self.options.model, parameters, Box::new(observations_with_follows))
-            .zip(&self.outliers)
-            .map(|(innovation, is_outlier)| innovation.leg_fit(errors, *is_outlier))
-            .collect()
-    }
-
-    /// Marks the outliers under `parameters` and systematic `errors`, and returns true if the set of outliers changed. `round` counts the
-    /// rounds of the fit from 1.
-    pub(super) fn mark_outliers(
-        &mut self,
-        parameters: &Parameters,
-        errors: &ErrorVector,
-        round: usize,
-    ) -> bool {
+    /// Marks the outliers by the innovations of all legs, and returns true if the set of outliers changed. `round` counts the rounds of the
+    /// fit from 1.
+    pub(super) fn mark_outliers(&mut self, leg_fits: &[LegFit], round: usize) -> bool {
         if self.options.outliers == Outliers::Keep {
             return false;
         }
-        let leg_fits = self.leg_fits(parameters, errors);
         // Variances may be too small in early rounds. The gate that defines outliers is then wider, so that at most half of the legs are
         // outliers.
         let mut squared_distances: Vec<f64> = leg_fits.iter().map(|fit| fit.squared).collect();

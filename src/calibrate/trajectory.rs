@@ -43,6 +43,10 @@ const USUAL_FRACTION: f64 = 0.95;
 /// Maximum time (s) between two poses of the integration of a command. Legs end at these poses.
 const MAX_COMMAND_STEP: f64 = 0.1;
 
+/// Number of samples that are searched for a time first. Most logs have nearly equal periods, by which the sample is guessed. A search of the
+/// whole log needs more memory than the cache of a processor has.
+const SEARCH_WIDTH: usize = 64;
+
 impl Trajectory {
     /// Returns the trajectory through `samples`, each a time (s) and a pose.
     ///
@@ -188,7 +192,15 @@ impl Trajectory {
     /// Returns the first sample that is not earlier than `time` (s), and the elapsed fraction of the step to this sample; 1 at the sample.
     /// None outside of the trajectory and inside of a gap.
     pub(super) fn locate(&self, time: f64) -> Option<(usize, f64)> {
-        let sample = self.times.partition_point(|row_time| *row_time < time);
+        let ([start, end], is_earlier) = (self.span()?, |row_time: &f64| *row_time < time);
+        let guess = ((time - start) / (end - start) * self.times.len() as f64) as usize;
+        let first = guess.min(self.times.len()).saturating_sub(SEARCH_WIDTH / 2);
+        let sample = match self.times.get(first..first + SEARCH_WIDTH) {
+            Some(near @ [before, .., after]) if is_earlier(before) && !is_earlier(after) => {
+                first + near.partition_point(is_earlier)
+            }
+            _ => self.times.partition_point(is_earlier),
+        };
         let time_after = *self.times.get(sample)?;
         if time_after == time {
             return Some((sample, 1.0));

@@ -140,14 +140,16 @@ pub(super) fn cross_validate(
 ) -> (Option<Recommendation>, Vec<Check>, Vec<WindowCoverage>) {
     let split_in_halves = |legs: usize| [0..legs / 2, legs / 2..legs];
     let leg_count = fit.leg_set.legs.len();
-    let residuals = split_in_halves(leg_count).map(|half| fit.leg_set.inlier_residuals(half));
+    let residuals = split_in_halves(leg_count).map(|half| fit.leg_set.residuals_in(half));
     let parameters_of = |half: &Residuals| maximize(half, &fit.maximum.parameters, EXACT_GAIN).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {
-        compared_legs += residuals.observations.len();
-        covered_legs +=
-            residuals.filter_result(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
+        let filter_result = residuals.filter_result(parameters);
+        for fit in filter_result.leg_fits(&filter_result.errors).iter().filter(|fit| !fit.is_outlier) {
+            compared_legs += 1;
+            covered_legs += usize::from(fit.is_within(&CHI2_95));
+        }
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/(3n). With k α's, each α has a k-th of the
     // components.

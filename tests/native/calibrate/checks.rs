@@ -208,15 +208,7 @@ fn lost_legs_are_reported() {
     let [odometry, reference] = sim.simulate_log();
     let reference_with_gaps =
         new_trajectory(reference.samples().filter(|(sample_time, _)| sample_time.rem_euclid(90.0) > 30.0));
-    let calibration = calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options());
-    assert_fails(LegsLost, &calibration);
-    assert!(
-        calibration
-            .diagnostics
-            .checks
-            .iter()
-            .any(|check| check.cause == Some(FailureCause::WithoutReference))
-    );
+    assert_fails(LegsLost, &calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options()));
 }
 
 #[test]

@@ -38,9 +38,10 @@ fn split_into_legs(
     leg_length: LegLength,
     clock_offset: f64,
 ) -> (Vec<Leg>, LostLegs) {
-    let mut lost_legs = LostLegs::default();
+    let (mut legs, mut lost_legs) = (Vec::new(), LostLegs::default());
     let drive = Drive { odometry: odometry_log.clone(), reference: reference_log.clone() };
-    (drive.cut_into_legs(0, leg_length, clock_offset, &mut lost_legs), lost_legs)
+    drive.cut_into_legs(0, leg_length, clock_offset, &mut legs, &mut lost_legs);
+    (legs, lost_legs)
 }
 
 fn options_of(model: Model) -> Options {

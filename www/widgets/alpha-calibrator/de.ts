@@ -12,12 +12,8 @@ const CHECK_MESSAGES: Record<string, string> = {
     'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Fuß, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien jeder Fahrt vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Länger aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
-  'legs-lost-withoutReference':
-    'Viele Etappen gingen verloren. Die α gelten für den Rest. Den meisten fehlt die Referenz: sie während der ganzen Fahrt aufzeichnen.',
-  'legs-lost-acrossBreaks':
-    'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten gehen über einen Bruch: die Sprünge und die weggelassenen Zeilen ansehen.',
-  'legs-lost-acrossPauses':
-    'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten sind durch eine Pause zu lang: beide ohne Lücken aufzeichnen.',
+  'legs-lost':
+    'Viele Etappen gingen verloren, aus den Gründen unter „verlorene Etappen“. Die α gelten für den Rest. Beide Dateien während der ganzen Fahrt und ohne Lücken aufzeichnen; die Sprünge der Referenz und die weggelassenen Zeilen ansehen.',
   'sampling-dense':
     'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für diese Länge. Mit höherer Rate aufzeichnen oder längere Etappen wählen.',
   'outliers-few':

@@ -3,69 +3,69 @@ use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
 fn arrays_are_copies_of_the_samples() {
-    let js = JsObject::new(
+    let sim = JsObject::new(
         "new motion.BananaMachine({ model: 'odometry', noise: 'triangular', samples: 1000, seed: 3 })",
     );
-    js.assert(
+    sim.assert(
         "[it.poses, it.twists, it.executed].every((array) => array instanceof Float64Array
         && array.length === 3000)",
     );
-    js.assert("Object.values(it.contours).every((outline) => outline instanceof Float64Array)");
-    js.assert("it.density(1, [-4, -4, 4, 4], 20, 10) instanceof Uint32Array");
-    js.assert("it.firstPoses(18).join() === it.poses.slice(0, 54).join()");
-    js.assert("it.firstTwists(18).join() === it.twists.slice(0, 54).join()");
-    js.run(
+    sim.assert("Object.values(it.contours).every((outline) => outline instanceof Float64Array)");
+    sim.assert("it.density(1, [-4, -4, 4, 4], 20, 10) instanceof Uint32Array");
+    sim.assert("it.firstPoses(18).join() === it.poses.slice(0, 54).join()");
+    sim.assert("it.firstTwists(18).join() === it.twists.slice(0, 54).join()");
+    sim.run(
         "[it.poses.fill(NaN), it.config.command.v = 9, it.config.alphas[0] = 9,
         it.stats.cartesian.mean[0] = 9]",
     );
-    js.assert("it.poses.every(Number.isFinite) && it.config.command.v === 1 && it.config.alphas[0] !== 9");
+    sim.assert("it.poses.every(Number.isFinite) && it.config.command.v === 1 && it.config.alphas[0] !== 9");
 }
 
 #[wasm_bindgen_test]
 fn each_model_keeps_its_alphas_and_a_seed_its_cloud() {
-    let js = JsObject::new("new motion.BananaMachine({ samples: 500, seed: 8 })");
-    let cloud_coordinates: Vec<f64> = js.get("it.poses");
-    js.run("it.configure({ model: 'odometry', samples: 700 })");
-    js.run("it.configure({ alphas: new Float64Array([4, 3, 2, 1]), isolate: 2 })");
-    js.run("it.configure({ model: 'velocity', isolate: null, samples: undefined })");
-    assert_eq!(js.get::<[f64; 4]>("it.alphasOfModels.odometry"), [4.0, 3.0, 2.0, 1.0]);
-    assert_eq!(js.get::<Vec<f64>>("it.alphasOfModels.velocity"), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
-    assert_eq!(js.get::<Vec<f64>>("it.poses.slice(0, 1500)"), cloud_coordinates);
-    assert_eq!(js.get::<[f64; 2]>("[it.poses.length, it.config.samples]"), [2100.0, 700.0]);
+    let sim = JsObject::new("new motion.BananaMachine({ samples: 500, seed: 8 })");
+    let cloud_coordinates: Vec<f64> = sim.get("it.poses");
+    sim.run("it.configure({ model: 'odometry', samples: 700 })");
+    sim.run("it.configure({ alphas: new Float64Array([4, 3, 2, 1]), isolate: 2 })");
+    sim.run("it.configure({ model: 'velocity', isolate: null, samples: undefined })");
+    assert_eq!(sim.get::<[f64; 4]>("it.alphasOfModels.odometry"), [4.0, 3.0, 2.0, 1.0]);
+    assert_eq!(sim.get::<Vec<f64>>("it.alphasOfModels.velocity"), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
+    assert_eq!(sim.get::<Vec<f64>>("it.poses.slice(0, 1500)"), cloud_coordinates);
+    assert_eq!(sim.get::<[f64; 2]>("[it.poses.length, it.config.samples]"), [2100.0, 700.0]);
 }
 
 #[wasm_bindgen_test]
 fn a_cloud_made_in_blocks_equals_one_made_at_once() {
-    let js = JsObject::new(
+    let sim = JsObject::new(
         "({ blocks: motion.BananaMachine.empty({ samples: 300 }), whole: new motion.BananaMachine({ samples: 300 }) })",
     );
-    js.assert(
+    sim.assert(
         "it.blocks.shown === 0 && it.blocks.contours.ellipse.length === 0
         && Number.isNaN(it.blocks.stats.gaussianSkew)",
     );
     let are_equal = || {
-        js.get::<bool>(
+        sim.get::<bool>(
             "JSON.stringify([it.blocks.config, it.blocks.stats, [...it.blocks.poses]]) ===
              JSON.stringify([it.whole.config, it.whole.stats, [...it.whole.poses]])",
         )
     };
     assert_eq!(
-        js.get::<[usize; 3]>("[1, 100, 1000].map((count) => it.blocks.addSamples(count))"),
+        sim.get::<[usize; 3]>("[1, 100, 1000].map((count) => it.blocks.addSamples(count))"),
         [1, 101, 300]
     );
     assert!(are_equal());
     let changed_settings = "{ command: { v: 1, omega: 1.2, dt: 1.4 }, samples: 120_000, seed: 5 }";
-    js.run(&format!("it.blocks.configureFirst({changed_settings}, Infinity)"));
-    js.assert("it.blocks.shown === 10_000 && it.blocks.stats.n === 10_000");
-    js.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
-    js.run(&format!("it.whole.configure({changed_settings})"));
+    sim.run(&format!("it.blocks.configureFirst({changed_settings}, Infinity)"));
+    sim.assert("it.blocks.shown === 10_000 && it.blocks.stats.n === 10_000");
+    sim.run("(() => { while (it.blocks.shown < 120_000) it.blocks.addSamples(it.blocks.block); })()");
+    sim.run(&format!("it.whole.configure({changed_settings})"));
     assert!(are_equal());
 }
 
 #[wasm_bindgen_test]
 fn every_kind_of_bad_value_is_refused_and_changes_nothing() {
-    let js = JsObject::new("new motion.BananaMachine({ samples: 30, seed: 11 })");
-    js.assert_refused(
+    let sim = JsObject::new("new motion.BananaMachine({ samples: 30, seed: 11 })");
+    sim.assert_refused(
         "[it.config, it.stats, [...it.poses]]",
         r#"
         it.configure({ seed: 1, alphas: [1, 2, 3, NaN, 5, 6], model: 'velocity' })

@@ -41,14 +41,14 @@ fn contours_of_noise_contain_every_crossing() {
     }
     let contour_lines = trace_level_set(&random_field, columns, 0.2);
     let mut point_count = 0;
-    for line in &contour_lines {
-        let is_closed = line.len() > 2 && line.first() == line.last();
-        point_count += line.len() - usize::from(is_closed);
+    for outline in &contour_lines {
+        let is_closed = outline.len() > 2 && outline.first() == outline.last();
+        point_count += outline.len() - usize::from(is_closed);
         let is_on_rim =
             |[x, y]: [f64; 2]| x == 0.0 || y == 0.0 || x == (columns - 1) as f64 || y == (rows - 1) as f64;
-        assert!(is_closed || (is_on_rim(line[0]) && is_on_rim(line[line.len() - 1])), "{line:?}");
-        for ends in line.windows(2) {
-            assert!((ends[1][0] - ends[0][0]).abs().max((ends[1][1] - ends[0][1]).abs()) <= 1.0);
+        assert!(is_closed || (is_on_rim(outline[0]) && is_on_rim(outline[outline.len() - 1])), "{outline:?}");
+        for edge in outline.windows(2) {
+            assert!((edge[1][0] - edge[0][0]).abs().max((edge[1][1] - edge[0][1]).abs()) <= 1.0);
         }
     }
     assert_eq!(point_count, crossing_count);

@@ -7,19 +7,19 @@ import { CPU_SLOWDOWN } from './drag.js';
  * @typedef {import('./suite.js').Timings} Timings
  *
  * @typedef {object} Results
- * @property {Record<string, string>} ranOn machine, versions and date
- * @property {boolean} quick
- * @property {Timings} node
- * @property {Timings} chromium
- * @property {Record<string, number[]>} start ms from the script's start to the end of each stage, for each load of the page
- * @property {import('./drag.js').Drag[]} drags
+ * @property {Record<string, string>} machineDescription machine, versions and date
+ * @property {boolean} isQuickRun
+ * @property {Timings} nodeTimings
+ * @property {Timings} chromiumTimings
+ * @property {Record<string, number[]>} pageStartTimes ms from the script's start to the end of each stage, for each load of the page
+ * @property {import('./drag.js').Drag[]} dragTimings
  */
 
 /** Duration of a frame at 60 Hz, ms. */
 const FRAME_MS = 16.7;
 
 /** Returns the report as Markdown. @param {Results} results */
-export function formatReport({ ranOn: benchMachine, quick: isQuickRun, node: nodeTimings, chromium: chromiumTimings, start: pageStartTimes, drags: dragTimings }) {
+export function formatReport({ machineDescription, isQuickRun, nodeTimings, chromiumTimings, pageStartTimes, dragTimings }) {
   const slowestDrag = dragTimings.reduce((slowestSoFar, dragTiming) => (computeQuantile(dragTiming.pictureTimes) > computeQuantile(slowestSoFar.pictureTimes) ? dragTiming : slowestSoFar));
   const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(nodeTimings), Chromium: valuesOf(chromiumTimings) });
   const refreshTimingsOf = (/** @type {number} */ sampleCount) => (/** @type {Timings} */ { refreshTimings }) => refreshTimings.find((refreshRow) => refreshRow.samples === sampleCount) ?? refreshTimings[0];
@@ -43,7 +43,7 @@ export function formatReport({ ranOn: benchMachine, quick: isQuickRun, node: nod
     { where: runtimeName, samples: formatDigits(refreshRow.samples), 'refresh, ms': cellTextOf(refreshRow.core), 'JavaScript, ms': cellTextOf(refreshRow.baseline), ratio: cellTextOf(computeSpeedRatios(refreshRow)) }
   )));
   return [
-    `${Object.entries(benchMachine).map(([versionKey, partVersion]) => `${versionKey} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
+    `${Object.entries(machineDescription).map(([versionKey, partVersion]) => `${versionKey} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
     formatMarkdownTable(targetRows),
     `One event of the slider:\n\n${formatMarkdownTable(refreshRows)}`,
     `First cloud, from the start of the script:\n\n${formatMarkdownTable(Object.entries(pageStartTimes).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,

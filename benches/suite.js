@@ -18,11 +18,11 @@ import { raceContenders } from './timing.js';
  *
  * @param {Motion} core
  * @param {object} options
- * @param {boolean} options.quick
+ * @param {boolean} options.isQuickRun
  * @param {{ odometry: string, reference: string }} options.log CSV
  * @returns {Promise<Timings>}
  */
-export async function measureCore(core, { quick: isQuickRun, log: logCsv }) {
+export async function measureCore(core, { isQuickRun, log: logCsv }) {
   const differingStatistics = findDifferencesFromCore(core, 4000);
   if (differingStatistics.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differingStatistics.join('\n')}`);
   const secondsPerRace = isQuickRun ? 0.2 : 2;

@@ -33,8 +33,8 @@ async function describeMachine(chromiumVersion) {
  * Measures the core and the page in Chromium.
  *
  * @param {string} executablePath
- * @param {{ quick: boolean, log: { odometry: string, reference: string } }} benchOptions
- * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromium' | 'start' | 'drags'>>}
+ * @param {{ isQuickRun: boolean, log: { odometry: string, reference: string } }} benchOptions
+ * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromiumTimings' | 'pageStartTimes' | 'dragTimings'>>}
  */
 async function measureInChromium(executablePath, benchOptions) {
   const { chromium: chromiumLauncher } = await import('@playwright/test');
@@ -45,20 +45,20 @@ async function measureInChromium(executablePath, benchOptions) {
   const figuresAddress = `${serverAddress}benches/page.html`;
   try {
     printStep('First cloud');
-    const pageStartTimes = await measureStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
+    const pageStartTimes = await measureStarts(browser, figuresAddress, benchOptions.isQuickRun ? 5 : 11);
     printStep('Drags');
-    const dragTimes = await measureDrags(browser, figuresAddress, benchOptions.quick ? 10 : 40);
+    const dragTimings = await measureDrags(browser, figuresAddress, benchOptions.isQuickRun ? 10 : 40);
     printStep('Refresh and calibration');
     // The page "empty" has no figures, so that its times are those of the page alone.
     const page = await browser.newPage();
     await page.route(`${serverAddress}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
     await page.goto(`${serverAddress}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromiumTimings = await page.evaluate(async ({ modules: [coreModule, suiteModule], given: suiteOptions }) => {
+    const chromiumTimings = await page.evaluate(async ({ moduleAddresses: [coreModule, suiteModule], suiteOptions }) => {
       const [{ load: loadCore }, { measureCore }] = await Promise.all([import(coreModule), import(suiteModule)]);
       return measureCore(await loadCore(), suiteOptions);
-    }, { modules: [`${serverAddress}dist/core.js`, `${serverAddress}benches/suite.js`], given: benchOptions });
-    return { chromium: chromiumTimings, start: pageStartTimes, drags: dragTimes };
+    }, { moduleAddresses: [`${serverAddress}dist/core.js`, `${serverAddress}benches/suite.js`], suiteOptions: benchOptions });
+    return { chromiumTimings, pageStartTimes, dragTimings };
   } finally {
     await browser.close();
     closeServer();
@@ -73,7 +73,7 @@ await runAsScript(import.meta.url, async () => {
   // The full build is measured, because it is published. The local build is not optimized.
   await buildProject();
   const [odometry, reference] = [EXAMPLE_LOG_PATHS.odometry, EXAMPLE_LOG_PATHS.reference].map((logPath) => readFileSync(join(REPOSITORY_ROOT, logPath), 'utf8'));
-  const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
+  const benchOptions = { isQuickRun, log: { odometry, reference } };
   printStep('Node');
   // The modules of benches/ import dist/, which exists only after the build.
   const { measureCore } = await import('../benches/suite.js');
@@ -81,7 +81,7 @@ await runAsScript(import.meta.url, async () => {
   const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await loadCore()), benchOptions);
   const browser = await ensureBrowser();
   printStep('Chromium');
-  const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chromePath, benchOptions)) };
+  const benchResults = { machineDescription: await describeMachine(browser.version), isQuickRun, nodeTimings, ...(await measureInChromium(browser.chromePath, benchOptions)) };
   writeFileSync(join(REPOSITORY_ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
   console.log(`\n${formatReport(benchResults)}\n\nbuild/bench.json has all measurements.`);
 });

@@ -127,7 +127,7 @@ export function endGroupWithProcess(processGroupId) {
 }
 
 /** Removes an ended process group from `processGroups`. @param {number} processGroupId */
-export const forgetGroup = (processGroupId) => processGroups.delete(processGroupId);
+export const forgetProcessGroup = (processGroupId) => processGroups.delete(processGroupId);
 
 /** Milliseconds without output after which the name of the running program is printed. */
 const MAX_SILENCE_MS = 30_000;
@@ -189,7 +189,7 @@ export function runProgram(programName, commandArguments, { env = {}, cwd = REPO
     const finishRun = (/** @type {boolean} */ hasSucceeded) => {
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
-      if (processGroupId !== undefined) forgetGroup(processGroupId);
+      if (processGroupId !== undefined) forgetProcessGroup(processGroupId);
       resolveResult({ hasSucceeded, hasTimedOut, stdout: stdoutText, output: combinedOutput });
     };
     childProcess.on('error', () => finishRun(false));

@@ -195,8 +195,8 @@ test('a message is shown while a large map is opened, and another map can replac
   test.setTimeout(120_000);
   const widget = await openSqueeze(page);
   const gridSide = 4000;
-  const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === gridSide - 1 || r === gridSide - 1 || (c % 100 === 50 && r % 100 === 50);
-  await chooseFiles(widget, [makeYamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), makePgmFile('hall.pgm', gridSide, gridSide, isPost)]);
+  const isPillarCell = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === gridSide - 1 || r === gridSide - 1 || (c % 100 === 50 && r % 100 === 50);
+  await chooseFiles(widget, [makeYamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), makePgmFile('hall.pgm', gridSide, gridSide, isPillarCell)]);
   await expect(currentMapOf(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
   const { stats, config: figureConfig } = await readSqueezeResults(widget);
   expect(stats.attempts).toBe(figureConfig.samples);

@@ -2,7 +2,7 @@
 
 import { spawn } from 'node:child_process';
 import { join } from 'node:path';
-import { REPOSITORY_ROOT, killProcessGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
+import { REPOSITORY_ROOT, killProcessGroup, endGroupWithProcess, forgetProcessGroup } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 
 /** Time limit in seconds within which a server has to answer. */
@@ -87,7 +87,7 @@ export function startProgram(programName, commandArguments, { env = {}, cwd = RE
       resolve();
     });
     childProcess.on('close', () => {
-      if (groupId !== undefined) forgetGroup(groupId);
+      if (groupId !== undefined) forgetProcessGroup(groupId);
       resolve();
     });
   });

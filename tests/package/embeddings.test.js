@@ -17,11 +17,11 @@ function fileLinesOf(filePath) {
 }
 
 for (const platformName of await findPlatformNames()) {
-  const { heading, readVersions: packageVersions } = await loadPlatform(platformName);
+  const { heading, readVersions } = await loadPlatform(platformName);
 
   test(`${heading}: the document quotes the example, and states the tested versions`, () => {
     const tableRow = embeddingDocuments.split('\n').find((textLine) => textLine.startsWith(`| ${heading} |`));
-    assert.ok(tableRow?.includes(` ${packageVersions()} `), `The row "${heading}" of what was tried has to say ${packageVersions()}.`);
+    assert.ok(tableRow?.includes(` ${readVersions()} `), `The row "${heading}" of what was tried has to say ${readVersions()}.`);
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
     // Shell commands are left out, because the files of the example contain none.
     const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');

@@ -17,7 +17,7 @@ const MESSAGE_TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, oder ${COMMAN
 const ROLE_NAMES = { odometry: 'Odometrie', reference: 'Referenz' };
 
 const countWithNoun = (count: number, singular: string, plural: string) => `${count} ${count === 1 ? singular : plural}`;
-const withDecimalComma = (value: number, digits: number) => value.toFixed(digits).replace('.', ',');
+const withDecimalComma = (value: number, digitCount: number) => value.toFixed(digitCount).replace('.', ',');
 
 const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
 

@@ -13,7 +13,7 @@ const BLOCK_BYTES = 2 ** 22;
 const HEAD_BYTES = 2 ** 18;
 
 /** Number of characters at the start of a text that are checked for NUL characters. */
-const CHECKED_CHARACTERS = 4096;
+const MAX_CHECKED_CHARACTERS = 4096;
 
 /** Maximum number of characters in a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
@@ -31,7 +31,7 @@ export async function openTable(sourceFile: SourceFile, optionsOf: FindOptions):
   const headBytes = await readBytes(sourceFile, 0, Math.min(HEAD_BYTES, sourceFile.size));
   const encoding = detectEncoding(headBytes);
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
-  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.unknownFormatReason);
+  if (headText.slice(0, MAX_CHECKED_CHARACTERS).includes('\0')) throw new LogError({ fileName: sourceFile.name }, (errorReasons) => errorReasons.unknownFormatReason);
   const headLines = headText.split('\n');
   // The last line of the sampled text may be incomplete. It is dropped unless it is the only line.
   if (sourceFile.size > HEAD_BYTES && headLines.length > 1) headLines.pop();

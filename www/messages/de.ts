@@ -1,12 +1,12 @@
 /** Words that all widgets share, in German; see en.ts. */
 
 export const de: typeof import('./en.ts').en = {
-  failureMessage: (reason) => `Diese interaktive Abbildung läuft hier nicht. ${reason}`,
+  failureMessage: (failureReason) => `Diese interaktive Abbildung läuft hier nicht. ${failureReason}`,
   presetsHeading: 'Voreinstellungen',
   cloud: {
     drawLabel: 'Stichproben ziehen',
     playTitle: 'Immer ein paar',
-    stepTitle: (batch) => `Zieht ${batch} weitere`,
+    stepTitle: (batchSize) => `Zieht ${batchSize} weitere`,
     clearTitle: 'Entfernt die Stichproben; derselbe Startwert zieht dieselben Stichproben',
     newSeedTitle: 'Neuer zufälliger Startwert',
   },
@@ -57,7 +57,7 @@ export const de: typeof import('./en.ts').en = {
     keysHint: 'Die Pfeiltasten bewegen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab bewegen ihn weit in y, Pos1 und Ende an die Enden in x; Komma und Punkt oder [ und ] drehen ihn',
     headingKeysHint: 'Die Pfeiltasten drehen ihn, mit Umschalt in größeren Schritten; Bild auf und Bild ab drehen ihn weit, Pos1 und Ende nach hinten',
   },
-  sliderEndNote: (end) => `Endet bei ${end}; weitere Werte eintippen.`,
+  sliderEndNote: (sliderEnd) => `Endet bei ${sliderEnd}; weitere Werte eintippen.`,
   exports: {
     label: 'Abbildung sichern',
     png: 'PNG',

@@ -5,16 +5,11 @@ import { words } from '../messages/registry.ts';
 import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-interface WorkNotice {
-  renderContent: () => unknown;
-  stopWork: () => void;
-}
-
 /** Notice at the lower edge of the figure or window. It moves no other content. */
 export class FigureNotice extends FigureController {
   #renderContent: (() => unknown) | undefined;
   /** Notice about long work. Until the work has ended, it hides the notice of `showNotice`. */
-  #workNotice: WorkNotice | undefined;
+  #workNotice: { renderContent: () => unknown, stopWork: () => void } | undefined;
 
   /** Shows a notice with a button that closes it. */
   showNotice(renderContent: () => unknown) {

@@ -111,12 +111,8 @@ export class FocusKeeper extends FigureController {
   hostUpdated() {
     const [previousControl, ...focusAncestors] = this.#focusPath;
     if (!previousControl || (previousControl.isConnected && previousControl.checkVisibility() && !previousControl.matches(':disabled'))) return;
-    for (const ancestorElement of focusAncestors) {
-      const [nextControl] = ancestorElement.isConnected ? findFocusableElements(ancestorElement) : [];
-      if (!nextControl) continue;
-      nextControl.focus({ preventScroll: true });
-      return;
-    }
+    const [nextControl] = focusAncestors.filter(({ isConnected }) => isConnected).flatMap(findFocusableElements);
+    nextControl?.focus({ preventScroll: true });
   }
 }
 

@@ -97,12 +97,6 @@ export interface PlotCurve extends Pick<LineStyle, 'colourRole' | 'dash'> {
   isHighlighted?: boolean;
 }
 
-interface DataPoint extends Pick<LineStyle, 'colourRole'> {
-  x: number;
-  y: number;
-  error: number;
-}
-
 /** Vertical line across the plot, with a text. */
 interface VerticalMark {
   x: number;
@@ -115,7 +109,7 @@ export interface PlotOptions {
   x: PlotAxis;
   y: PlotAxis;
   plotCurves: PlotCurve[];
-  dataPoints?: DataPoint[];
+  dataPoints?: (Pick<LineStyle, 'colourRole'> & { x: number, y: number, error: number })[];
   verticalMarks?: VerticalMark[];
   /** Slider that covers the plot and sets a value on the x axis. */
   slider?: Omit<Parameters<typeof sliderTrackHtml>[0], 'min' | 'max'>;

@@ -210,7 +210,7 @@ test.describe('a finger on a figure', () => {
       // Finds a robot that is in the plot area and not covered by the handle.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);
-        const { left: leftEdge, right: rightEdge, top: topEdge, bottom: bottomEdge } = pictureView.plotArea;
+        const { leftEdge, rightEdge, topEdge, bottomEdge } = pictureView.plotArea;
         if (Math.hypot(x - handlePixel[0], y - handlePixel[1]) > 60 && x > leftEdge && x < rightEdge && y > topEdge && y < bottomEdge) return [x / pictureView.width, y / pictureView.height];
       }
       throw new Error('No robot is clear of the handle.');

@@ -146,18 +146,18 @@ impl TangentNoiseModel {
         &self,
         sigma: &Matrix3<f64>,
         step_twist: &Vector3<f64>,
-        cov_recursion: Compounding,
+        compounding: Compounding,
     ) -> Matrix3<f64> {
         let inverse_adjoint = SE2::exp(step_twist).inverse().adjoint();
         let transported_cov = inverse_adjoint * sigma * inverse_adjoint.transpose();
         let last_turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn_variance));
-        if cov_recursion == Compounding::Chapter {
+        if compounding == Compounding::Chapter {
             return transported_cov + self.r + last_turn_cov;
         }
         let jacobian = SE2::right_jacobian(step_twist);
         let step_cov = jacobian * self.r * jacobian.transpose() + last_turn_cov;
         let first_order_cov = transported_cov + step_cov;
-        match cov_recursion {
+        match compounding {
             Compounding::FourthOrder => first_order_cov + fourth_order_terms(&transported_cov, &step_cov),
             _ => first_order_cov,
         }

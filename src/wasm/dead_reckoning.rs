@@ -21,7 +21,7 @@ cloud_simulation_class! {
         stats: "ReckoningStats" = to_plain_js(&simulation.stats());
         /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if undefined.
         ratios: "ByRecursion<Float64Array>" =
-            js_by_recursion(|cov_recursion| triple_array(simulation.comparison(cov_recursion).ratios.iter().copied()));
+            js_by_recursion(|compounding| triple_array(simulation.comparison(compounding).ratios.iter().copied()));
         /// Standard errors of the measured variances, as fractions of the variances.
         relative_errors as "relativeErrors": "Float64Array" =
             triple_array(simulation.measured_moments().iter().map(|moments| moments.relative_error));
@@ -43,9 +43,9 @@ cloud_simulation_class! {
         /// Level h of the heading noise; null unless α₃ and α₄ are h, and α₅ and α₆ are h/4.
         heading_noise as "headingNoise": "number | null" = to_plain_js(&simulation.settings().heading_noise());
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
-        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|cov_recursion| {
+        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|compounding| {
             let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
-            let cov_matrices = simulation.predicted_covariances(cov_recursion).iter();
+            let cov_matrices = simulation.predicted_covariances(compounding).iter();
             triple_array(cov_matrices.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
         });
         /// Measured variances, in the form of `predicted`.
@@ -73,7 +73,7 @@ impl JsDeadReckoning {
 fn js_by_recursion(value_of: impl Fn(Compounding) -> Float64Array) -> JsValue {
     let recursion_entries: Vec<_> = Compounding::KEYWORDS
         .iter()
-        .map(|(recursion_name, cov_recursion)| (*recursion_name, value_of(*cov_recursion).into()))
+        .map(|(recursion_name, compounding)| (*recursion_name, value_of(*compounding).into()))
         .collect();
     js_object(&recursion_entries)
 }

@@ -183,16 +183,16 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let cov_recursion = fields.read_or("compounding", Compounding::Chapter, ())?;
+    let compounding = fields.read_or("compounding", Compounding::Chapter, ())?;
     let step_count = fields.read_or("steps", 1u64, 1..=MAX_STEPS)?;
     // `from_velocity` succeeds, because the ranges of the arguments exclude negative and infinite variances.
     let noise_model = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|model_error| RangeError::new(&model_error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
     for step_index in 0..step_count {
-        sigma = noise_model.propagate(&sigma, &twist, cov_recursion);
+        sigma = noise_model.propagate(&sigma, &twist, compounding);
         // The first-order and chapter recursions only add covariances. Only the fourth order can give an indefinite matrix.
-        if cov_recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
+        if compounding == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let error_message = format!(
                 "steps is {step_count}; allowed are at most {step_index} here: the next leaves no covariance, for the noise is too large"
             );

@@ -101,7 +101,7 @@ test('the sampler is selected by its name, and the readouts show the results of 
     expect(await readNumber(/^\s*drawn/)).toBe(stats.drawn);
     expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
     expect(await readNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
-    const intervalText = stats.throughWallInterval.map((intervalEnd) => (100 * intervalEnd).toFixed(1)).join('\u2060–\u2060');
+    const intervalText = stats.throughWallInterval.map((intervalLimit) => (100 * intervalLimit).toFixed(1)).join('\u2060–\u2060');
     const throughWallText = `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}\u202f%, went through a wall (95\u202f% interval ${intervalText}\u202f%)`;
     await expect(widget.locator('.verdict')).toHaveText(new RegExp(`^${stats.accepted} of 600 motions .* and are accepted; `));
     await expect(widget.locator('.verdict')).toContainText(samplerName === 'whole-arc' ? 'none of them went through a wall.' : throughWallText);

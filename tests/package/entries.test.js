@@ -22,8 +22,8 @@ function runNode(moduleSource) {
 }
 
 test('every script of the package can be imported in Node, and defines no global variables', () => {
-  const { exports } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
-  const scriptNames = Object.keys(exports).filter((entryName) => /\.js$/.test(exports[entryName].default));
+  const { exports: packageExports } = JSON.parse(readFileSync(join(REPOSITORY_ROOT, 'package.json'), 'utf8'));
+  const scriptNames = Object.keys(packageExports).filter((entryName) => /\.js$/.test(packageExports[entryName].default));
   const importNames = scriptNames.map((scriptName) => join('motion-widgets', scriptName));
   assert.ok(importNames.length >= 4, importNames.join(' '));
   const scriptOutput = runNode(`

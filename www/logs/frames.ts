@@ -85,8 +85,8 @@ export class FrameTree {
    */
   findPoseFrames(): FramePair[] {
     const { frameLinks } = this;
-    const travellingLinks = frameLinks.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL_DISTANCE);
-    const movingFrames = new Set((travellingLinks.length ? travellingLinks : frameLinks.filter(({ isStatic }) => !isStatic)).map(({ child: childFrame }) => childFrame));
+    const movingFrameLinks = frameLinks.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL_DISTANCE);
+    const movingFrames = new Set((movingFrameLinks.length ? movingFrameLinks : frameLinks.filter(({ isStatic }) => !isStatic)).map(({ child: childFrame }) => childFrame));
     const childFrames = [...new Set(frameLinks.map(({ child: childFrame }) => childFrame))];
     return childFrames.flatMap((childFrame) => {
       const ancestorFrames = this.#ancestorsOf(childFrame);

@@ -111,9 +111,9 @@ function joinContainers(containers: MessageContainer[]): MessageContainer {
     },
     async readMessages(isWanted, onMessage, onProgress) {
       for (const [i, container] of containers.entries()) {
-        let isStopped = false;
-        await container.readMessages(isWanted, onMessage, (progressFraction) => (isStopped = onProgress?.((i + progressFraction) / containers.length) === true));
-        if (isStopped) return;
+        let isReadingStopped = false;
+        await container.readMessages(isWanted, onMessage, (progressFraction) => (isReadingStopped = onProgress?.((i + progressFraction) / containers.length) === true));
+        if (isReadingStopped) return;
       }
     },
   };

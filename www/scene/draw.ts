@@ -20,21 +20,21 @@ const TICKS_PER_STROKE = 25;
  */
 export function drawDots(drawContext: DrawContext, poses: Float64Array, tickScale: number = 0) {
   const { canvasContext, pictureView, palette } = drawContext;
-  const dotPixels = Array.from({ length: poses.length / 3 }, (_, i) => pictureView.toPixel(poses[3 * i], poses[3 * i + 1]));
-  const isSparse = dotPixels.length < 400;
+  const dotPositions = Array.from({ length: poses.length / 3 }, (_, i) => pictureView.toPixel(poses[3 * i], poses[3 * i + 1]));
+  const isSparse = dotPositions.length < 400;
   // Dots are smaller in a small picture, where the robots have less space.
   const dotScale = Math.min(1, Math.max(0.7, pictureView.width / 720));
   const radius = dotScale * (isSparse ? 2.4 : 1.8);
   if (tickScale > 0) {
     const tickLength = tickScale * dotScale * (isSparse ? 13 : 9);
-    const headingTicks = dotPixels.map((_, i) => pictureView.headingLineFrom({ x: poses[3 * i], y: poses[3 * i + 1], theta: poses[3 * i + 2] }, tickLength));
+    const headingTicks = dotPositions.map((_, i) => pictureView.headingLineFrom({ x: poses[3 * i], y: poses[3 * i + 1], theta: poses[3 * i + 2] }, tickLength));
     paintWithOpacity(canvasContext, isSparse ? 0.6 : 0.32, () => strokeInBatches(canvasContext, headingTicks, { colour: palette.cloud, width: 1 }, TICKS_PER_STROKE));
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
   const sideLength = Math.sqrt(Math.PI) * radius;
   canvasContext.fillStyle = palette.cloud;
   paintWithOpacity(canvasContext, isSparse ? 0.9 : 0.5, () => {
-    for (const [x, y] of dotPixels) {
+    for (const [x, y] of dotPositions) {
       if (isSparse || drawContext.isExported) drawDisc(canvasContext, [x, y], radius, palette.cloud);
       else canvasContext.fillRect(x - sideLength / 2, y - sideLength / 2, sideLength, sideLength);
     }

@@ -62,7 +62,7 @@ impl Cloud {
         }
         let regular_sums = drive.sums_of_regular_arc_deviations(first_pass.unit_noise.totals());
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
-        for sample_block in sample_blocks(shown_count) {
+        for sample_block in blocks_of_samples(shown_count) {
             for (group_range, lane_mask) in sample_block {
                 let noise = &self.draws.unit_noise[group_range.clone()];
                 add_to_second_pass(&drive, noise, &self.positions[group_range], lane_mask, &mut second_pass);
@@ -78,7 +78,7 @@ impl Cloud {
 
     fn run_first_pass(&mut self, mut first_pass: FirstPass) -> FirstPass {
         let Self { draws, drive, positions, shown_count } = self;
-        for sample_block in sample_blocks(*shown_count) {
+        for sample_block in blocks_of_samples(*shown_count) {
             let end_group = sample_block[1].0.end;
             draws.extend_to(end_group * LANE_COUNT);
             if positions.len() < end_group {
@@ -128,7 +128,7 @@ impl Cloud {
 
 /// Divides `sample_count` samples into blocks of groups of four, at least one block. Each block has two ranges of groups, each with its
 /// mask of SIMD lanes: full groups of four samples, and groups with unused lanes.
-fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
+fn blocks_of_samples(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let group_count = sample_count.div_ceil(LANE_COUNT);
     let lane_mask = first_lanes_mask(sample_count % LANE_COUNT);
     (0..group_count.div_ceil(GROUPS_PER_BLOCK).max(1)).map(move |i| {

@@ -105,7 +105,7 @@ impl DeadReckoning {
             allowed: AllowedValues::FitsInMemory,
         })?;
         let predicted_covariances =
-            RECURSIONS.map(|cov_recursion| propagate_covariances(&settings, cov_recursion));
+            RECURSIONS.map(|compounding| propagate_covariances(&settings, compounding));
         let measured_moments = rollouts.measured_moments(0);
         let comparisons = compare_recursions(&settings, &predicted_covariances, &measured_moments);
         Ok(Self { settings, rollouts, shown_count: 0, predicted_covariances, measured_moments, comparisons })
@@ -159,13 +159,13 @@ impl DeadReckoning {
     }
 
     /// Returns the covariance that a recursion predicts after each step; None from the step on at which the covariance is undefined.
-    pub fn predicted_covariances(&self, cov_recursion: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.predicted_covariances[cov_recursion as usize]
+    pub fn predicted_covariances(&self, compounding: Compounding) -> &[Option<Matrix3<f64>>] {
+        &self.predicted_covariances[compounding as usize]
     }
 
     /// Returns the comparison of a recursion's predicted variances with those of the robots.
-    pub fn comparison(&self, cov_recursion: Compounding) -> &RecursionComparison {
-        &self.comparisons[cov_recursion as usize]
+    pub fn comparison(&self, compounding: Compounding) -> &RecursionComparison {
+        &self.comparisons[compounding as usize]
     }
 
     /// Returns the commanded pose after each step.
@@ -207,10 +207,10 @@ impl DeadReckoning {
         Stats {
             n: self.shown_count(),
             measured: ExponentialMoments { mean, cov },
-            predicted: evaluate_recursions(|cov_recursion| {
-                self.predicted_covariances(cov_recursion)[step_index].map(Into::into)
+            predicted: evaluate_recursions(|compounding| {
+                self.predicted_covariances(compounding)[step_index].map(Into::into)
             }),
-            misses: evaluate_recursions(|cov_recursion| self.comparison(cov_recursion).misses),
+            misses: evaluate_recursions(|compounding| self.comparison(compounding).misses),
         }
     }
 
@@ -373,7 +373,7 @@ impl RecursionComparison {
 
 /// Returns the covariance of ξ that a recursion predicts after each step, from step 1. The start is known exactly. The covariance is None
 /// from the step at which the fourth-order terms make it indefinite.
-fn propagate_covariances(settings: &Settings, cov_recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
+fn propagate_covariances(settings: &Settings, compounding: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
     // `ok` hides no error: `from_velocity` succeeds for all allowed settings, because their variances are finite and not negative.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
@@ -382,7 +382,7 @@ fn propagate_covariances(settings: &Settings, cov_recursion: Compounding) -> Vec
         .map(|_| {
             predicted_cov = predicted_cov
                 .zip(tangent_noise)
-                .map(|(sigma, tangent_noise)| tangent_noise.propagate(&sigma, &twist, cov_recursion))
+                .map(|(sigma, tangent_noise)| tangent_noise.propagate(&sigma, &twist, compounding))
                 .filter(|next_sigma| covariance_root(next_sigma).is_ok());
             predicted_cov
         })

@@ -123,10 +123,10 @@ pub fn hash_dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     };
     let undefined_variances = Vector3::repeat(f64::NAN);
     let [variance_ratios, predicted_variances] = [
-        RECURSIONS.map(|cov_recursion| flatten_by_step(&|k| simulation.comparison(cov_recursion).ratios[k])),
-        RECURSIONS.map(|cov_recursion| {
+        RECURSIONS.map(|compounding| flatten_by_step(&|k| simulation.comparison(compounding).ratios[k])),
+        RECURSIONS.map(|compounding| {
             flatten_by_step(&|k| {
-                simulation.predicted_covariances(cov_recursion)[k]
+                simulation.predicted_covariances(compounding)[k]
                     .map_or(undefined_variances, |cov| cov.diagonal())
             })
         }),
@@ -137,11 +137,11 @@ pub fn hash_dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     let miss_fields = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order]
         .map(|axis_misses| axis_misses.map(|m: Misses| (m.decidable, m.first, m.last, m.end, m.error)));
     let predicted_covs = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
-    let sum_statistics =
+    let stats_fields =
         (stats.n, (stats.measured.mean, stats.measured.cov), predicted_covs, <(_, _, _)>::from(miss_fields));
     let step_outlines = simulation.outlines(settings.step).expect("a step");
     vec![
-        HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), sum_statistics)),
+        HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), stats_fields)),
         HashedPart::new("steps", (variance_ratios, predicted_variances, measured_variances, relative_errors)),
         HashedPart::new(
             "poses",

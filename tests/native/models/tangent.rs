@@ -185,9 +185,9 @@ fn first_order_transforms_the_noise_inside_the_arc_only() {
     assert!((separate_cov - merged_cov).amax() > 1e-4);
 }
 
-fn propagate_twenty_steps(noise_model: &TangentNoiseModel, cov_recursion: Compounding) -> Matrix3<f64> {
+fn propagate_twenty_steps(noise_model: &TangentNoiseModel, compounding: Compounding) -> Matrix3<f64> {
     let step_twist = TangentNoiseModel::twist(&COMMAND_OF_STEP);
-    (0..20).fold(Matrix3::zeros(), |sigma, _| noise_model.propagate(&sigma, &step_twist, cov_recursion))
+    (0..20).fold(Matrix3::zeros(), |sigma, _| noise_model.propagate(&sigma, &step_twist, compounding))
 }
 
 #[test]
@@ -195,14 +195,14 @@ fn covariances_after_twenty_steps_match_the_references() {
     let tangent_model =
         TangentNoiseModel::from_velocity(&new_velocity_model(FULL_RANK_ALPHAS), &COMMAND_OF_STEP).unwrap();
     let reference_table = ReferenceTable::parse(include_str!("../../reference/compounding.csv"));
-    for (csv_row, cov_recursion) in
+    for (csv_row, compounding) in
         reference_table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {
         let [cov_aa, cov_ab, cov_aw, cov_bb, cov_bw, cov_ww] =
             csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let expected_cov =
             Matrix3::new(cov_aa, cov_ab, cov_aw, cov_ab, cov_bb, cov_bw, cov_aw, cov_bw, cov_ww);
-        let sigma = propagate_twenty_steps(&tangent_model, cov_recursion);
+        let sigma = propagate_twenty_steps(&tangent_model, compounding);
         let recursion_name = csv_row.cell_text("order");
         assert!((sigma - expected_cov).amax() < 1e-14, "{recursion_name}: {sigma}{expected_cov}");
     }

@@ -129,13 +129,13 @@ fn moments_are_those_of_the_cloud() {
 #[test]
 fn ratios_and_misses_are_counted() {
     let simulation = new_simulation(Settings::default());
-    for cov_recursion in RECURSIONS {
-        let variance_comparison = simulation.comparison(cov_recursion);
+    for compounding in RECURSIONS {
+        let variance_comparison = simulation.comparison(compounding);
         for (axis, axis_misses) in variance_comparison.misses.iter().enumerate() {
             let expected_ratios: Vec<f64> = (0..20)
                 .map(|k| {
                     let predicted_cov =
-                        simulation.predicted_covariances(cov_recursion)[k].expect("a covariance");
+                        simulation.predicted_covariances(compounding)[k].expect("a covariance");
                     predicted_cov[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();

@@ -73,10 +73,10 @@ export function systematicTableHtml(figure: Figure) {
 const stackedTextsHtml = (cellText: string) => cellText.split('\n').map((line) => html`<div>${line}</div>`);
 
 export function diagnosticsHtml({ viewModel: { stats } }: Figure) {
-  const { checks, windowTable, noiseTable, lostLegs } = words.calibrator;
+  const { checks: checkTexts, windowTable, noiseTable, lostLegs } = words.calibrator;
   const checkTable = checkTableOf(stats, words);
   const checkRows = checkTable.rows.map(([name, ...cells], i) => [html`${name}<div class="muted">${checkMessageOf(stats.diagnostics.checks[i], words.calibrator)}</div>`, ...cells]);
-  return html`${fieldsetHtml(checks.title, tableHtml({ ...checkTable, rows: checkRows }))}
+  return html`${fieldsetHtml(checkTexts.title, tableHtml({ ...checkTable, rows: checkRows }))}
     ${fieldsetHtml(windowTable.title, tableHtml({ caption: windowTable.caption, ...windowTableOf(stats, words) }))}
     ${fieldsetHtml(noiseTable.title, tableHtml(noiseTableOf(stats, words)))}
     ${fieldsetHtml(lostLegs.title, readoutsHtml(LOST_LEG_CAUSES.map((cause) => [lostLegs[cause], formatInteger(stats.lost[cause])])))}`;

@@ -31,11 +31,11 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, ratio
   if (ratioCondition !== 'certain') return texts.conditions[ratioCondition];
   const recursionMisses = misses[compounding];
   if (recursionMisses.every(({ first }) => first === null)) return texts.correctPrediction(formatInteger(n));
-  // `endIndex` is the component whose ratio is furthest from 1 at the last step. `worstIndex` is the component whose ratio is furthest from 1 at any step.
-  const endIndex = worstComponentIndexOf(overlays, (componentIndex) => Math.abs(recursionMisses[componentIndex].end));
+  // `endComponentIndex` is the component whose ratio is furthest from 1 at the last step. `worstIndex` is the component whose ratio is furthest from 1 at any step.
+  const endComponentIndex = worstComponentIndexOf(overlays, (componentIndex) => Math.abs(recursionMisses[componentIndex].end));
   const worstIndex = worstComponentIndexOf(overlays, (componentIndex) => max(curves[componentIndex].ratio, (varianceRatio) => Math.abs(varianceRatio - 1)) ?? NaN);
   const ratioList = formatRatiosAtSteps(Array.from(curves[worstIndex].ratio));
-  return texts.wrongPrediction(texts.componentAdjectives[TWIST_COMPONENTS[worstIndex]], ratioList, formatSignedPercent(recursionMisses[endIndex].end), texts.componentAdjectives[TWIST_COMPONENTS[endIndex]]);
+  return texts.wrongPrediction(texts.componentAdjectives[TWIST_COMPONENTS[worstIndex]], ratioList, formatSignedPercent(recursionMisses[endComponentIndex].end), texts.componentAdjectives[TWIST_COMPONENTS[endComponentIndex]]);
 }
 
 /** Returns the index of the visible component with the greatest miss (error of the predicted variance). A miss of NaN does not count. */

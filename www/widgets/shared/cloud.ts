@@ -19,7 +19,7 @@ type GrowingSimulation = Pick<BananaMachine, 'shown' | 'block' | 'configureFirst
 const GROWTH_STEP_COUNT = 150;
 
 /** Maximum time (ms) for adding samples in a frame. The whole frame with its pictures then takes less than 50 ms. */
-const MAX_ADDING_MS = 12;
+const MAX_SAMPLING_MS = 12;
 
 export class Cloud extends FigureController {
   #hasGivenUp;
@@ -100,7 +100,7 @@ export class Cloud extends FigureController {
   }
 
   /** Adds samples for at most `limitMs` milliseconds. Returns true if the cloud has `targetCount` samples, or as many as the simulation can draw. */
-  addSamplesUnseen(limitMs = MAX_ADDING_MS): boolean {
+  addSamplesUnseen(limitMs = MAX_SAMPLING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;
     const latestCounts = this.#latestCounts;

@@ -147,9 +147,12 @@ test('two files of the same name get roles of their own, and columns are propose
   await expect(widget.getByRole('group', { name: 'Columns of log.csv (2) (proposed)' }).getByLabel('yaw', { exact: true }).locator('option:checked')).toHaveText('− column 4: yaw');
   await widget.getByRole('button', { name: 'Read', exact: true }).click();
   await expect(captionOf(widget)).toHaveText(/Trust/);
-  await widget.getByLabel('y', { exact: true }).selectOption('column 3: y');
-  await widget.getByRole('button', { name: 'Read', exact: true }).click();
   await expect(widget.getByRole('group', { name: 'Columns of log.csv (2): choose, then read' })).toBeVisible();
+  const yColumn = widget.getByLabel('y', { exact: true });
+  await yColumn.selectOption('column 3: y');
+  await widget.getByRole('button', { name: 'Read', exact: true }).click();
+  await expect(widget.getByRole('alert')).toContainText('the headings turn the other way than the path');
+  await expect(yColumn.locator('option:checked')).toHaveText('− column 3: y');
 });
 
 test('the files of a dropped folder are one recording, and files that do not belong to it are ignored', async ({ page }) => {

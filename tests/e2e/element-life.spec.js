@@ -132,6 +132,17 @@ test('the promise `settled` waits for the figure and all its samples, in sight a
   }
 });
 
+test('the promise `settled` resolves for a figure that was resized out of sight', async ({ page, figureName }) => {
+  const widget = await mountFigure(page, figureName);
+  await widget.evaluate((element) => element.insertAdjacentHTML('beforebegin', '<div style="height: 6000px"></div>'));
+  await expect.poll(() => widget.evaluate((element) => /** @type {any} */ (element).renderer.isVisible)).toBe(false);
+  const readCanvasWidth = () => widget.locator('canvas').first().evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width);
+  const widthBefore = await readCanvasWidth();
+  await page.setViewportSize({ width: 500, height: 720 });
+  await expect.poll(readCanvasWidth).not.toBe(widthBefore);
+  await widget.evaluate((element) => /** @type {any} */ (element).settled);
+});
+
 test('the promise `settled` waits for texts that a slow device renders later than the picture', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   const cdpSession = await page.context().newCDPSession(page);

@@ -161,6 +161,8 @@ export class FigureRenderer extends FigureController {
       if (figure.isSettledAwaited) cloud?.addAllSamples();
       if (cloud && !cloud.addSamplesUnseen()) this.#scheduleFrame();
       else if (settings.isViewModelStale) figure.updateViewModel();
+      // A change of the width draws pictures out of the viewport too, and leaves their text to this frame.
+      if (this.#textPendingSince !== undefined) this.#renderText();
       figure.resolveIfSettled();
     });
   }

@@ -85,11 +85,11 @@ fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: Syste
     reading_jacobian_of(leg, systematic_errors) * (motion_error_after(H) - motion_error_after(-H)) / (2.0 * H)
 }
 
-/// Returns the restricted log-likelihood, from a dense covariance matrix of all residuals.
+/// Returns the restricted log-likelihood, from a dense covariance matrix of the residuals of all legs but the outliers.
 fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicError]) -> f64 {
-    let Calibration { legs, observations: leg_observations, corrected, alphas, reference_noise, .. } =
-        calibration;
-    let residual_count = 3 * legs.len();
+    let Calibration { legs, observations, leg_fits, corrected, alphas, reference_noise, .. } = calibration;
+    let fitted_legs: Vec<usize> = (0..legs.len()).filter(|leg| !leg_fits[*leg].is_outlier).collect();
+    let residual_count = 3 * fitted_legs.len();
     let [position_variance, yaw_variance] =
         reference_noise.map(|std_estimate| std_estimate.value * std_estimate.value);
     let reference_covariance =
@@ -99,8 +99,9 @@ fn compute_dense_log_likelihood(calibration: &Calibration, error_kinds: &[System
     let mut residual_covariance = DMatrix::zeros(residual_count, residual_count);
     let mut stacked_residuals = DVector::zeros(residual_count);
     let mut design_matrix = DMatrix::zeros(residual_count, error_kinds.len());
-    for (i, (leg, observation)) in legs.iter().zip(leg_observations).enumerate() {
-        if !leg.follows {
+    for (i, leg_index) in fitted_legs.into_iter().enumerate() {
+        let (leg, observation) = (&legs[leg_index], &observations[leg_index]);
+        if !leg.follows || leg_fits[leg_index - 1].is_outlier {
             pose_count += 1;
         }
         pose_jacobians
@@ -168,6 +169,51 @@ fn the_filter_gives_the_likelihood_of_a_dense_covariance_matrix() {
         let (log_likelihood, dense_value) =
             (calibration.log_likelihood, compute_dense_log_likelihood(&calibration, corrected_kinds));
         assert!((log_likelihood - dense_value).abs() < 1e-5, "{log_likelihood} is not {dense_value}");
+    }
+}
+
+/// A search with a wrong score ends beside the maximum. At the maximum, each derivative of the likelihood is 0, up to the tolerance of the
+/// search: 0.014 in units of the parameter's standard error.
+#[test]
+fn a_fit_with_outliers_and_breaks_maximizes_the_likelihood_of_a_dense_covariance_matrix() {
+    let sim = Simulation {
+        jump_fraction: 0.1,
+        velocity_of_leg: Some(|leg_index| [0.3, [0.7, -0.5, 0.1][leg_index / 3 % 3]]),
+        ..new_bend_simulation(80)
+    };
+    let [odometry_log, reference_log] = sim.simulate_log();
+    let reference_with_breaks = reference_log.with_breaks_before([200, 500]);
+    let corrected_kinds = [SystematicError::DistanceScale, SystematicError::TurnScale];
+    let correction_options =
+        SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
+    let fit = calibrate_log(
+        &[odometry_log, reference_with_breaks],
+        &Options { correct: correction_options, ..sim.calibration_options() },
+    );
+    let outlier_count = fit.leg_fits.iter().filter(|leg_fit| leg_fit.is_outlier).count();
+    assert!(outlier_count >= 4 && fit.lost.across_breaks == 2, "{outlier_count} {:?}", fit.lost);
+    let log_likelihood_of =
+        |calibration: &Calibration| compute_dense_log_likelihood(calibration, &corrected_kinds);
+    assert!((fit.log_likelihood - log_likelihood_of(&fit)).abs() < 1e-5);
+    for parameter in 0..6 {
+        let log_likelihood_at = |relative_change: f64| {
+            let mut changed_fit = fit.clone();
+            match parameter {
+                0..4 => {
+                    changed_fit.alphas[parameter] =
+                        fit.alphas[parameter].map(|alpha| (1.0 + relative_change) * alpha)
+                }
+                _ => changed_fit.reference_noise[parameter - 4].value *= (1.0 + relative_change).sqrt(),
+            }
+            log_likelihood_of(&changed_fit)
+        };
+        const H: f64 = 1e-3;
+        let [below, middle, above] = [-H, 0.0, H].map(log_likelihood_at);
+        let (gradient, curvature) = ((above - below) / (2.0 * H), (2.0 * middle - above - below) / (H * H));
+        assert!(
+            gradient.abs() < 0.014 * curvature.abs().sqrt(),
+            "parameter {parameter}: {gradient} {curvature}"
+        );
     }
 }
 

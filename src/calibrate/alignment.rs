@@ -84,10 +84,11 @@ fn best_match(
     let correlations: Vec<f64> = (0..offset_count).map(correlation_of_offset).collect();
     let (best_index, &max) = correlations.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     // Vertex of the parabola through the largest correlation and its neighbours.
-    let [correlation_before, after_best] =
+    let [correlation_before, correlation_after] =
         [best_index.wrapping_sub(1), best_index + 1].map(|i| correlations.get(i).copied().unwrap_or(max));
-    let curvature = correlation_before - 2.0 * max + after_best;
-    let fraction = if curvature < 0.0 { 0.5 * (correlation_before - after_best) / curvature } else { 0.0 };
+    let curvature = correlation_before - 2.0 * max + correlation_after;
+    let fraction =
+        if curvature < 0.0 { 0.5 * (correlation_before - correlation_after) / curvature } else { 0.0 };
     (max >= MIN_CORRELATION).then_some((min_offset + (best_index as f64 + fraction) * step, max))
 }
 
@@ -96,8 +97,8 @@ fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step_length: f64, st
     let headings = trajectory.unwrapped_heading();
     let heading_at = |time: f64| {
         let Some((sample_index, fraction)) = trajectory.locate(time) else { return f64::NAN };
-        let correlation_before = headings[sample_index.saturating_sub(1)];
-        correlation_before + fraction * (headings[sample_index] - correlation_before)
+        let previous_heading = headings[sample_index.saturating_sub(1)];
+        previous_heading + fraction * (headings[sample_index] - previous_heading)
     };
     let times: Vec<f64> = (0..=step_count).map(|i| start_time + i as f64 * step_length).collect();
     let step_headings: Vec<f64> = times.iter().copied().map(heading_at).collect();

@@ -353,9 +353,9 @@ pub(super) fn masked_inverse<const N: usize>(
         if i == j { 1.0 + REGULARIZATION } else { information[(i, j)] * scales[i] * scales[j] }
     });
     let Some(cholesky) = nalgebra::Cholesky::new(scaled_information) else { return (SMatrix::zeros(), 0.0) };
-    let inverse_covariance = cholesky.inverse();
+    let scaled_covariance = cholesky.inverse();
     let selected_scales = scales.iter().filter(|scale| **scale > 0.0);
     let log_det =
         cholesky.ln_determinant() - 2.0 * selected_scales.map(|scale| libm::log(*scale)).sum::<f64>();
-    (SMatrix::from_fn(|i, j| inverse_covariance[(i, j)] * scales[i] * scales[j]), log_det)
+    (SMatrix::from_fn(|i, j| scaled_covariance[(i, j)] * scales[i] * scales[j]), log_det)
 }

@@ -226,9 +226,10 @@ impl Fit {
             .collect()
     }
 
-    /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many.
+    /// Returns all legs with their residuals. The sample that was fitted has only some of the legs if there are many. The log may then lose
+    /// its legs.
     pub fn all_legs(&self, log: &mut Log) -> LegSet {
-        let Self { leg_set, maximum, .. } = self;
+        let Self { leg_set, maximum } = self;
         if log.legs.len() == leg_set.legs.len() {
             return leg_set.clone();
         }

@@ -156,8 +156,8 @@ impl Trajectory {
         if fraction == 1.0 {
             return Some((pose, velocity));
         }
-        let previous_time = self.poses[sample_index - 1];
-        let pose_at_time = previous_time.boxplus(pose.boxminus(&previous_time) * fraction);
+        let previous_pose = self.poses[sample_index - 1];
+        let pose_at_time = previous_pose.boxplus(pose.boxminus(&previous_pose) * fraction);
         Some((pose_at_time, self.velocity_of_sample(sample_index - 1).lerp(&velocity, fraction)))
     }
 
@@ -205,8 +205,9 @@ impl Trajectory {
         if time_after == time {
             return Some((sample, 1.0));
         }
-        let previous_time = sample.checked_sub(1).filter(|_| self.gaps.binary_search(&sample).is_err())?;
-        Some((sample, (time - self.times[previous_time]) / (time_after - self.times[previous_time])))
+        let time_before =
+            self.times[sample.checked_sub(1).filter(|_| self.gaps.binary_search(&sample).is_err())?];
+        Some((sample, (time - time_before) / (time_after - time_before)))
     }
 
     pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {

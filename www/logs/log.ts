@@ -146,7 +146,7 @@ export interface LogSummary {
   rate: number;
   /** Length of the path in m. */
   distance: number;
-  /** Gaps: times between rows of more than five times the median. `longest` is a duration in s, and `first` a time in s after the first row. */
+  /** Gaps: times between rows of more than five times the usual time (95 % quantile). `longest` is a duration in s, and `first` a time in s after the first row. */
   gaps: { count: number; longest: number; first: number };
   /** Jumps: steps that are much faster than the others. `first` is a time in s after the first row. */
   jumps: { count: number; first: number };

@@ -4,7 +4,7 @@ import { group, max, min, range, sum } from 'd3-array';
 import { COLUMN_CHANGES } from './columns.ts';
 import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type LogNote, type OpenOptions, type ErrorReason, type LogSummary, type LogTexts } from './log.ts';
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
-import { epochTimeUnitOf, judgeUnits, type SampleColumns, type CreateColumnQuestion, type LogUnits } from './units.ts';
+import { epochTimeUnitOf, judgeUnits, usualTimeStepOf, type SampleColumns, type CreateColumnQuestion, type LogUnits } from './units.ts';
 
 /** Sample of a log: a pose (x, y and heading) or a command (v, omega and 0). `sampleTime` is in s; 0 if unknown. The heading is undefined if the quaternion is not a rotation. */
 export interface LogSample {
@@ -36,8 +36,8 @@ const MAX_ROWS = 10_000_000;
 /** Maximum absolute value of a coordinate or speed that the core accepts. */
 export const MAX_VALUE = 1e9;
 
-/** Minimum duration of a gap, in median steps between rows. The core uses the same number. */
-const MIN_GAP_STEPS = 5;
+/** Minimum duration of a gap, as a multiple of the usual time between rows, and the quantile that is usual. The core uses the same numbers. */
+const [MIN_GAP_STEPS, USUAL_STEP_QUANTILE] = [5, 0.95];
 
 /** Minimum speed of a jump, as a multiple of a moving robot's usual speed (90 % quantile). */
 const JUMP_FACTOR = 8;
@@ -278,12 +278,12 @@ export class RowCollector {
 
 /** Returns the rate, the gaps and the jumps of a log. */
 function findEvents(logKind: LogKind, [t, a, b, c]: Float64Array[]) {
-  const medianStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  const usualStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), USUAL_STEP_QUANTILE);
   const rowIndices = range(1, t.length);
-  const gapRows = rowIndices.filter((i) => t[i] - t[i - 1] > MIN_GAP_STEPS * medianStep);
+  const gapRows = rowIndices.filter((i) => t[i] - t[i - 1] > MIN_GAP_STEPS * usualStep);
   const jumpRows = logKind === 'poses' ? rowIndices.filter(createJumpChecker(t, a, b, c)) : [];
   return {
-    rate: 1 / medianStep, jumpRows,
+    rate: 1 / usualTimeStepOf(t), jumpRows,
     gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
     jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
   };

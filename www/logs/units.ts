@@ -142,7 +142,7 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
 }
 
 /** Returns the median time between rows, as a mean over `AVERAGED_ROWS` rows, because rows may arrive in bursts. */
-function usualTimeStepOf(t: Float64Array): number {
+export function usualTimeStepOf(t: Float64Array): number {
   const rowCount = Math.min(AVERAGED_ROWS, t.length - 1);
   return quantileOf(sampleEvenly(t.length - rowCount, (i) => t[i + rowCount] - t[i]), 0.5) / rowCount;
 }

@@ -164,6 +164,18 @@ fn an_error_that_the_log_does_not_identify_is_not_corrected() {
     }
 }
 
+/// On a circle, a mount yaw acts like a lever arm ahead. The second fit, without the lever arm, could identify the mount yaw.
+#[test]
+fn an_error_that_only_the_second_fit_identifies_is_not_corrected() {
+    let simulation = Simulation { velocity_of_leg: Some(|_| [0.3, 0.3]), ..Simulation::new(NAV2, 600, 4) };
+    let [mount_yaw, lever_arm] = [SystematicError::MountYaw, SystematicError::LeverArmAhead];
+    let correct = SystematicError::ALL.map(|error_kind| (error_kind == lever_arm).then_some(false));
+    let Calibration { systematic_stds, is_corrected, .. } =
+        calibrate_log(&simulation.simulate_log(), &Options { correct, ..simulation.calibration_options() });
+    assert!(systematic_stds[lever_arm as usize].is_some());
+    assert!(systematic_stds[mount_yaw as usize].is_none() && !is_corrected[mount_yaw as usize]);
+}
+
 /// The effect of a lever arm that is not corrected hides the turn scale.
 #[test]
 fn an_error_that_uncorrected_errors_hide_is_not_corrected() {

@@ -136,7 +136,7 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
   throw new LogError(errorPlace, (errorReasons) => errorReasons.noHeaderReason(rowWidth, truncate(firstRowLine.lineText.trim().replaceAll('\t', ' '))), columnQuestionOf(sampledRows[0].slice(0, rowWidth), sampledRows));
 }
 
-/** Fields that the columns of a table without known names probably have, by the number of columns. */
+/** Fields that the columns of a table probably have, by the number of columns, unless known names contradict them. */
 const LIKELY_FIELDS: Record<number, string[]> = { 3: ['t', 'v', 'omega'], 7: ['t', 'odom_x', 'odom_y', 'odom_yaw', 'ref_x', 'ref_y', 'ref_yaw'] };
 
 /** Returns the question for the columns of a table. Columns of known names keep them, and the missing fields are proposed for the other columns, in order. */
@@ -145,8 +145,9 @@ function columnQuestionOf(columnNames: string[], sampledRows: string[][]): UserQ
   const knownFields = meanings.map((meaning) => meaning && `${meaning.groupPrefix} ${meaning.logField}`);
   const hasField = (...logFields: string[]) => meanings.some((meaning) => meaning && logFields.includes(meaning.logField));
   const neededFields = hasField('v', 'omega') && !hasField('x', 'y') ? ['t', 'v', 'omega'] : ['t', 'x', 'y', 'yaw'];
-  const likelyFields = (knownFields.some(Boolean) ? undefined : LIKELY_FIELDS[columnNames.length]) ?? neededFields;
-  const missingFields = likelyFields.filter((logField) => !hasField(logField) && !(logField === 't' && hasField('seconds')) && !(logField === 'yaw' && hasField('qw')));
+  const likelyFields = LIKELY_FIELDS[columnNames.length] ?? neededFields;
+  const wantedFields = meanings.every((meaning) => !meaning || likelyFields.includes(meaning.logField)) ? likelyFields : neededFields;
+  const missingFields = wantedFields.filter((logField) => !hasField(logField) && !(logField === 't' && hasField('seconds')) && !(logField === 'yaw' && hasField('qw')));
   const timesOf = (columnIndex: number) => sampledRows.map((rowCells) => parseDate(rowCells[columnIndex]) ?? Number(rowCells[columnIndex]?.replace(',', '.')));
   const isRising = (columnIndex: number) => timesOf(columnIndex).every((time, i, times) => i === 0 || time > times[i - 1]);
   const proposedNames = columnNames.map((columnName, i) => {

@@ -34,11 +34,8 @@ pub enum TrajectoryError {
     },
 }
 
-/// Ratio of a pause to a usual period. Shorter gaps are only dropped messages.
+/// Number of median periods above which a period is a pause. Shorter gaps are only dropped messages.
 const MAX_PERIOD_RATIO: f64 = 5.0;
-
-/// Quantile that is the usual period. It is above the median, because samples may arrive in bursts.
-const USUAL_FRACTION: f64 = 0.95;
 
 /// Maximum time (s) between two poses of the integration of a command. Legs end at these poses.
 const MAX_COMMAND_STEP: f64 = 0.1;
@@ -69,8 +66,7 @@ impl Trajectory {
         }
         let mut periods: Vec<f64> = times.windows(2).map(|time_pair| time_pair[1] - time_pair[0]).collect();
         let median_period = median(&mut periods);
-        let pause_limit = MAX_PERIOD_RATIO * quantile(&mut periods, USUAL_FRACTION);
-        let is_pause = |sample: &usize| times[*sample] - times[sample - 1] > pause_limit;
+        let is_pause = |sample: &usize| times[*sample] - times[sample - 1] > MAX_PERIOD_RATIO * median_period;
         let gaps = (1..times.len()).filter(is_pause).collect();
         Ok(Self { times, poses, breaks: Vec::new(), gaps, median_period })
     }
@@ -217,11 +213,6 @@ impl Trajectory {
 
 /// Returns the upper median; 0 if there are no numbers. Reorders the numbers.
 pub(crate) fn median(numbers: &mut [f64]) -> f64 {
-    quantile(numbers, 0.5)
-}
-
-/// Returns a quantile; 0 if there are no numbers. Reorders the numbers.
-fn quantile(numbers: &mut [f64], fraction: f64) -> f64 {
-    let index = (fraction * numbers.len() as f64) as usize;
-    if numbers.is_empty() { 0.0 } else { *numbers.select_nth_unstable_by(index, f64::total_cmp).1 }
+    let middle_index = numbers.len() / 2;
+    if numbers.is_empty() { 0.0 } else { *numbers.select_nth_unstable_by(middle_index, f64::total_cmp).1 }
 }

@@ -32,6 +32,7 @@ const DROP_REASONS: Record<DropCause, string> = {
   noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
   repeated: 'eine Pose, die öfter wiederholt ist, als sie gemessen wurde',
+  burst: 'zugleich mit der nächsten Zeile angekommen, so dass ihre Zeit nicht die der Messung ist',
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 

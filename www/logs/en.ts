@@ -26,6 +26,7 @@ const DROP_REASONS = {
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
   repeated: 'a pose repeated at a higher rate than it was measured',
+  burst: 'arrived together with the next row, so that its time is not that of its measurement',
   held: 'the pose stands still while the odometry moves on',
 };
 

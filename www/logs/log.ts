@@ -121,7 +121,7 @@ export interface Log {
 export const mirroringQuestionsOf = (drives: Record<LogRole, Log>[], checks: CalibrationCheck[]): FileQuestion[] =>
   checks.filter(({ cause }) => cause === 'mirrored').flatMap((check) => check.drives.flatMap((drive) => drives[drive].reference.mirroringQuestion ?? drives[drive].odometry.mirroringQuestion ?? []));
 
-export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
+export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'burst' | 'held';
 
 /** Basis on which a unit was determined: a name, the size of the numbers, the rate of the rows, the format, dates, an option, or only that the unit is usual (`usage`). */
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
@@ -146,7 +146,7 @@ export interface LogSummary {
   rate: number;
   /** Length of the path in m. */
   distance: number;
-  /** Gaps: times between rows of more than five times the usual time (95 % quantile). `longest` is a duration in s, and `first` a time in s after the first row. */
+  /** Gaps: times between rows of more than five times the median. `longest` is a duration in s, and `first` a time in s after the first row. */
   gaps: { count: number; longest: number; first: number };
   /** Jumps: steps that are much faster than the others. `first` is a time in s after the first row. */
   jumps: { count: number; first: number };

@@ -4,7 +4,7 @@ import { group, max, min, range, sum } from 'd3-array';
 import { COLUMN_CHANGES } from './columns.ts';
 import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type LogNote, type OpenOptions, type ErrorReason, type LogSummary, type LogTexts } from './log.ts';
 import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
-import { epochTimeUnitOf, judgeUnits, usualTimeStepOf, type SampleColumns, type CreateColumnQuestion, type LogUnits } from './units.ts';
+import { epochTimeUnitOf, judgeUnits, type SampleColumns, type CreateColumnQuestion, type LogUnits } from './units.ts';
 
 /** Sample of a log: a pose (x, y and heading) or a command (v, omega and 0). `sampleTime` is in s; 0 if unknown. The heading is undefined if the quaternion is not a rotation. */
 export interface LogSample {
@@ -36,8 +36,14 @@ const MAX_ROWS = 10_000_000;
 /** Maximum absolute value of a coordinate or speed that the core accepts. */
 export const MAX_VALUE = 1e9;
 
-/** Minimum duration of a gap, as a multiple of the usual time between rows, and the quantile that is usual. The core uses the same numbers. */
-const [MIN_GAP_STEPS, USUAL_STEP_QUANTILE] = [5, 0.95];
+/** Minimum duration of a gap, in median steps between rows. The core uses the same number. */
+const MIN_GAP_STEPS = 5;
+
+/** Number of rows over which the time between rows is averaged. A burst has fewer rows. */
+const AVERAGED_ROWS = 20;
+
+/** Maximum time between two rows that arrive together, as a multiple of the mean time, and minimum fraction of such rows in a log of bursts. */
+const [MAX_BURST_STEP, MIN_BURST_FRACTION] = [0.3, 0.55];
 
 /** Minimum speed of a jump, as a multiple of a moving robot's usual speed (90 % quantile). */
 const JUMP_FACTOR = 8;
@@ -142,7 +148,7 @@ export class RowCollector {
     const startTime = Math.floor(min(stampedRows, (rowIndex) => this.#times[rowIndex]) ?? 0);
     const { sortedRows, lateCount } = this.#sortByTime(stampedRows);
     const rowsOfDistinctTime = this.#dropEqualTimes(sortedRows);
-    const rowIndices = logKind === 'poses' ? this.#dropRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
+    const rowIndices = this.#dropBursts(logKind === 'poses' ? this.#dropRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime);
     if (rowIndices.length < 2) {
       const [dropCause, firstDroppedRows] = (Object.entries(this.#droppedRows) as [DropCause, { first: number }][])[0] ?? [];
       throw new LogError({ ...this.#logPlace, lineNumber: firstDroppedRows?.first }, (errorReasons) => errorReasons.fewRowsReason(rowIndices.length, rowCount, dropCause));
@@ -260,6 +266,15 @@ export class RowCollector {
     });
   }
 
+  /** If most rows arrive together with the next one, only the last row of each burst is kept: the times of the others are those of their arrival. */
+  #dropBursts(rowIndices: Uint32Array): Uint32Array {
+    const timeBetween = (i: number, j: number) => this.#times[rowIndices[j]] - this.#times[rowIndices[i]];
+    const meanStep = quantileOf(sampleEvenly(rowIndices.length - AVERAGED_ROWS, (i) => timeBetween(i, i + AVERAGED_ROWS)), 0.5) / AVERAGED_ROWS;
+    const arrivesWithNext = (i: number) => timeBetween(i, i + 1) < MAX_BURST_STEP * meanStep;
+    const hasBursts = rowIndices.filter((_, i) => arrivesWithNext(i)).length > MIN_BURST_FRACTION * rowIndices.length;
+    return hasBursts ? this.#dropRows(rowIndices, 'burst', (_, i) => arrivesWithNext(i)) : rowIndices;
+  }
+
   /** Returns the rows for which `isDropped` is false. */
   #dropRows(rowIndices: Uint32Array, dropCause: DropCause, isDropped: (rowIndex: number, i: number) => boolean): Uint32Array {
     const { lineNumbers } = this.#rowColumns;
@@ -278,12 +293,12 @@ export class RowCollector {
 
 /** Returns the rate, the gaps and the jumps of a log. */
 function findEvents(logKind: LogKind, [t, a, b, c]: Float64Array[]) {
-  const usualStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), USUAL_STEP_QUANTILE);
+  const medianStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
   const rowIndices = range(1, t.length);
-  const gapRows = rowIndices.filter((i) => t[i] - t[i - 1] > MIN_GAP_STEPS * usualStep);
+  const gapRows = rowIndices.filter((i) => t[i] - t[i - 1] > MIN_GAP_STEPS * medianStep);
   const jumpRows = logKind === 'poses' ? rowIndices.filter(createJumpChecker(t, a, b, c)) : [];
   return {
-    rate: 1 / usualTimeStepOf(t), jumpRows,
+    rate: 1 / medianStep, jumpRows,
     gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
     jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
   };

@@ -43,9 +43,6 @@ const USUAL_SPEED = 0.5;
 /** Duration (s) of the steps from which speeds are computed. In shorter steps, noise would look like a high speed. */
 const STEP_DURATION = 0.5;
 
-/** Number of rows over which times between rows are averaged. A burst has fewer rows. */
-const AVERAGED_ROWS = 20;
-
 /** Minimum length (m) of a step whose direction is compared with the heading, and minimum number of such steps. */
 const [MIN_STEP_LENGTH, MIN_STEPS] = [0.02, 20];
 
@@ -101,7 +98,7 @@ const createUnitError = (errorPlace: ErrorPlace, unitOption: keyof typeof UNIT_N
 /** Judges a unit of time that is not stated, from the rate of the rows and the speed of the robot. */
 function judgeTimeUnit(errorPlace: ErrorPlace, logKind: LogKind, { t, a, b }: SampleColumns, assumedUnit: LogUnits['time']): LogUnits['time'] {
   if (assumedUnit.by !== 'usage' && assumedUnit.by !== 'size') return assumedUnit;
-  const rowRate = 1 / usualTimeStepOf(t);
+  const rowRate = 1 / medianStepOf(t);
   const pathSpeed = logKind === 'poses' ? pathSpeedOf(t, a, b) : 0;
   const unitsPerSecondOf = (unitName: TimeUnit) => 10 ** (UNIT_EXPONENTS[unitName] - UNIT_EXPONENTS[assumedUnit.unit]);
   const hasUsualRate = (unitName: TimeUnit) => isInRange(rowRate * unitsPerSecondOf(unitName), assumedUnit.by === 'size' ? POSSIBLE_RATES : USUAL_RATES);
@@ -121,7 +118,7 @@ function judgeTimeUnit(errorPlace: ErrorPlace, logKind: LogKind, { t, a, b }: Sa
  * several do (a straight path).
  */
 function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, heading: Float64Array): { unit: AngleUnit; headingSign: number; cosine: number } | undefined {
-  const rowStride = Math.max(2, Math.ceil(STEP_DURATION / usualTimeStepOf(t)));
+  const rowStride = Math.max(2, Math.ceil(STEP_DURATION / medianStepOf(t)));
   const headingAlignments = UNIT_NAMES.angleUnit.flatMap((unitName) => [1, -1].map((headingSign) => ({ unit: unitName, headingSign, cosine: 0, sine: 0 })));
   let stepCount = 0;
   for (let i = 0; i + rowStride < t.length; i += rowStride) {
@@ -141,15 +138,11 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
   return stepCount >= MIN_STEPS && bestAlignment.meanCosine > MIN_ALIGNMENT && bestAlignment.meanCosine - secondBestAlignment.meanCosine > MIN_ALIGNMENT_LEAD ? bestAlignment : undefined;
 }
 
-/** Returns the median time between rows, as a mean over `AVERAGED_ROWS` rows, because rows may arrive in bursts. */
-export function usualTimeStepOf(t: Float64Array): number {
-  const rowCount = Math.min(AVERAGED_ROWS, t.length - 1);
-  return quantileOf(sampleEvenly(t.length - rowCount, (i) => t[i + rowCount] - t[i]), 0.5) / rowCount;
-}
+const medianStepOf = (t: Float64Array) => quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
 
 /** Returns the 90 % quantile of the speeds of steps along a path, given times in seconds. */
 function pathSpeedOf(t: Float64Array, x: Float64Array, y: Float64Array): number {
-  const rowStride = Math.min(Math.max(1, Math.round(STEP_DURATION / usualTimeStepOf(t))), t.length - 1);
+  const rowStride = Math.min(Math.max(1, Math.round(STEP_DURATION / medianStepOf(t))), t.length - 1);
   return quantileOf(sampleEvenly(t.length - rowStride, (i) => Math.hypot(x[i + rowStride] - x[i], y[i + rowStride] - y[i]) / (t[i + rowStride] - t[i])), 0.9);
 }
 
@@ -160,7 +153,7 @@ export const logSpeedOf = (motionData: Poses | Commands): number => ('x' in moti
 
 /** Returns the 99 % quantile of the accelerations between steps; for commands, that of the accelerations of v. */
 function accelerationOf(logKind: LogKind, { t, a, b }: SampleColumns): number {
-  const rowStride = Math.max(1, Math.round(STEP_DURATION / usualTimeStepOf(t)));
+  const rowStride = Math.max(1, Math.round(STEP_DURATION / medianStepOf(t)));
   const velocityAt = (i: number, sampleColumn: Float64Array) => (sampleColumn[i + rowStride] - sampleColumn[i]) / (t[i + rowStride] - t[i]);
   const velocityChangeAt = (i: number, sampleColumn: Float64Array) => velocityAt(i + rowStride, sampleColumn) - velocityAt(i, sampleColumn);
   const accelerationAt = (i: number) => (logKind === 'poses' ? (2 * Math.hypot(velocityChangeAt(i, a), velocityChangeAt(i, b))) / (t[i + 2 * rowStride] - t[i]) : Math.abs(velocityAt(i, a)));

@@ -94,17 +94,6 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     assert_eq!((legs, lost_legs), split_into_legs(&drive, &drive, AMCL_LENGTH, 0.0));
 }
 
-/// Rows of the reference arrive in bursts of five. The time between two bursts is then no pause.
-#[test]
-fn a_reference_that_arrives_in_bursts_has_no_gaps() {
-    let drive = new_straight_drive(101, 0.05);
-    let burst_times = (0..101).map(|row| 0.03 + 0.5 * f64::from(row / 5) + 1e-4 * f64::from(row % 5));
-    let reference = new_trajectory(burst_times.zip(drive.samples().map(|(_, pose)| pose)));
-    let (legs, lost_legs) = split_into_legs(&drive, &reference, AMCL_LENGTH, 0.0);
-    // Only the first reading of the odometry is before the reference.
-    assert_eq!((legs.len(), lost_legs), (15, LostLegs { without_reference: 1, ..LostLegs::default() }));
-}
-
 #[test]
 fn lost_legs_are_counted_by_cause() {
     let drive = new_straight_drive(101, 0.05);

@@ -338,7 +338,7 @@ test('inspect lists the contents of a file, and suggests the next command', asyn
   const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePathOf('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* For example:\n.* --length-unit mm\.csv=mm$/m);
   assert.match(await inspectionOf([referenceCopy, odometryCopy, writeInFolder('empty_table.csv', 't,x,y,yaw\n')], 2), /^b\.csv: its name does not say whether it is odometry or reference;/m);
-  assert.match(await inspectionOf([writeInFolder('globe.csv', 'time,latitude,longitude\n0,1,2\n1,1,2\n')], 2), /^globe\.csv, line 1: .* For example:\n.* --columns globe\.csv=NAMES$/m);
+  assert.match(await inspectionOf([writeInFolder('vicon.csv', 'Frame,RX,TX\n0,1,2\n1,1,2\n')], 2), /^vicon\.csv, line 1: .* For example:\n.* --columns vicon\.csv=NAME1,NAME2,NAME3$/m);
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.doesNotMatch(await inspectionOf([examplePathOf('odometry'), millimetrePath], 2), /give the reference too/);

@@ -242,6 +242,7 @@ const REFUSED_TABLES = [
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],
   ['YAML', 'header:\n  seq: 1\n---\n', /it is YAML, not a table; write/],
+  ['positions on the globe', 'time,latitude,longitude,heading\n0,48.1,11.5,0\n1,48.1,11.5,0\n', /latitude and longitude are angles; give x and y in metres/],
   ['dates in an order that is not clear', 't,x,y,yaw\n6/10/2024 12:00:00,0,0,0\n6/10/2024 12:00:01,0,0,0\n', /, or a date as 2024-01-31 12:00:00\.5\.$/],
   ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columnNames: ['t', 'x', 'y', 'yaw'] }],
 ];
@@ -281,12 +282,17 @@ test('missing columns are proposed for columns of unknown names, unless no colum
     ['Frame,RX,TX [mm],TY [mm]', []],
     ['t,left,right', ['t,v,omega']],
     ['linear.x,linear.y,angular.z,angular.x', []],
-    ['time,latitude,longitude,heading', []],
+    ['a,b,c,d,e,f', []],
   ])) {
     const rowPrefix = headerLine.startsWith('ID') ? ['7'] : [];
     const { userQuestion } = await catchRefusalError(readTable(circleTableOf((tableRow) => [...rowPrefix, ...tableRow].slice(0, headerLine.split(',').length), headerLine)));
     assert.deepEqual(userQuestion?.possibleAnswers, proposedNames, headerLine);
   }
+});
+
+test('columns named by the user keep the units of a row below the header', async () => {
+  const { motionData } = await readTable(circleTableOf(([t, x, y, yaw], i) => (i === 0 ? ['s', 'mm', 'mm', 'rad'] : [t, 1000 * x, 1000 * y, yaw]), 'Zeit,Rechts,Hoch,Winkel'), { columnNames: ['t', 'x', 'y', 'yaw'] });
+  assert.ok(Math.abs(/** @type {any} */ (motionData).x[5] - CIRCLE_ROWS[6][1]) < 1e-9);
 });
 
 test('a heading without a prefix belongs to the only path of a table', async () => {

@@ -213,12 +213,12 @@ export function explainWithCommand({ message: errorMessage, errorPlace: { fileNa
 }
 
 /** Returns the typed arguments together with the option that answers the question of a LogError; undefined if no option answers it. */
-export function answerQuestion({ fileName, optionName, logRole, possibleAnswers }: FileQuestion, typedArgs: string[]): string[] | undefined {
+export function answerQuestion({ fileName, optionName, logRole, possibleAnswers, columnNames = [] }: FileQuestion, typedArgs: string[]): string[] | undefined {
   const [likeliestChoice] = possibleAnswers.filter(Boolean);
   const chosenRole = logRole ?? 'odometry';
   if (optionName === 'roles') return nameRoles(typedArgs);
   if (optionName === 'other') return [...typedArgs, ...(logRole ? [`--${logRole === 'odometry' ? 'reference' : 'odometry'}`] : []), 'FILE'];
-  if (optionName === 'columns') return [...typedArgs, '--columns', `${fileName}=${likeliestChoice ?? 'NAMES'}`];
+  if (optionName === 'columns') return [...typedArgs, '--columns', `${fileName}=${likeliestChoice ?? columnNames.map((_, i) => `NAME${i + 1}`).join()}`];
   if (likeliestChoice === undefined) return undefined;
   if (optionName in UNIT_NAMES) return [...typedArgs, `--${optionName.replace('Unit', '-unit')}`, `${fileName}=${likeliestChoice}`];
   return [...typedArgs, `--${chosenRole}-${optionName === 'series' ? 'topic' : 'frames'}`, likeliestChoice];

@@ -145,13 +145,14 @@ export function parseColumnName(columnName: string): ColumnMeaning | undefined {
   return baseMeaning && nameSuffix !== undefined && !UNREAD_QUANTITIES.test(nameSuffix) ? { ...baseMeaning, groupPrefix: nameSuffix } : undefined;
 }
 
-/** Pattern of names of row numbers, and of positions on the globe. */
-const ROW_NUMBERS_AND_GLOBE = /^(sub\.)?(frame|index|seq|count|row|id|lat|lon|lng|alt)/;
+/** Patterns of names of row numbers, and of positions on the globe. */
+const ROW_NUMBER_NAME = /^(sub\.)?(frame|index|seq|count|row|id)/;
+const GLOBE_NAME = /^(lat(itude)?|lon(g|gitude)?|lng|alt(itude)?)(\.|$)/;
 
 /** Returns true for a column whose name says that it holds neither times nor coordinates in the plane. */
 export function isOtherQuantity(columnName: string): boolean {
   const dottedName = toDottedName(columnName);
-  return UNREAD_QUANTITIES.test(dottedName) || ROW_NUMBERS_AND_GLOBE.test(dottedName);
+  return UNREAD_QUANTITIES.test(dottedName) || ROW_NUMBER_NAME.test(dottedName) || GLOBE_NAME.test(dottedName);
 }
 
 /** Returns the name that the user gives a column. If this name states no unit, the unit that the file states for the column is added, provided that the column may have such a unit. */
@@ -254,6 +255,8 @@ function clocksOf({ seconds: secondColumn, subseconds: subsecondColumn }: Column
 /** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one of these columns is missing, or if two columns may be the same field. */
 export function findLogLayout(columnGroup: ColumnGroup | undefined, { columnNames: rawColumnNames, columnQuestion: userQuestion }: Pick<TableFormat, 'columnNames' | 'columnQuestion'>, errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(rawColumnNames.map((columnName) => columnName.trim()));
+  const hasMotion = columnGroup !== undefined && (columnGroup.hasCommands || hasFields(columnGroup.fieldColumns, 'x', 'y'));
+  if (!hasMotion && rawColumnNames.some((columnName) => GLOBE_NAME.test(toDottedName(columnName)))) throw new LogError(errorPlace, (errorReasons) => errorReasons.globeReason);
   if (!columnGroup) throw new LogError(errorPlace, (errorReasons) => errorReasons.missingColumnsReason(wantedKind === 'poses' ? wantedKind : 'either', columnNames), userQuestion);
   const { fieldColumns, duplicateColumns, rowClocks } = columnGroup;
   if (rowClocks.length === 0) throw new LogError(errorPlace, (errorReasons) => errorReasons.noTimeColumnReason(columnNames), userQuestion);

@@ -47,6 +47,7 @@ export const german: LogTexts = {
     noTimeColumnReason: (columns) =>
       `keine der Spalten ${columns} ist die Zeit; erwartet wird eine mit dem Namen t, time, timestamp oder stamp, oder zwei mit sec und nanosec, oder eine Auswahl der Spalten.`,
     missingColumnsReason: (neededFields, columns) => `die Spalten sind ${columns}; erwartet werden darunter ${NEEDED_COLUMNS[neededFields]}, oder eine Auswahl der Spalten.`,
+    globeReason: 'Breite und Länge sind Winkel; gebraucht werden x und y in Metern, auf eine Ebene projiziert wie durch UTM oder ENU.',
     ambiguousColumnReason: (field, column, otherColumn) => `sowohl „${column}“ als auch „${otherColumn}“ kann die Spalte „${FIELD_NAMES[field]}“ sein; erwartet wird eines davon.`,
     shortRowReason: (count, needed) => `die Zeile hat ${countWithNoun(count, 'Feld', 'Felder')}; erwartet werden mindestens ${needed}.`,
     wideRowReason: (count, needed, header) =>

@@ -46,6 +46,7 @@ export const english = {
       `none of the columns ${columns} is the time; expected is one named t, time, timestamp or stamp, or two named sec and nanosec, or a choice of columns.`,
     missingColumnsReason: (neededFields: keyof typeof NEEDED_COLUMNS, columns: string) =>
       `the columns are ${columns}; expected are ${NEEDED_COLUMNS[neededFields]} among them, or a choice of columns.`,
+    globeReason: 'latitude and longitude are angles; give x and y in metres, projected to a plane as by UTM or ENU.',
     ambiguousColumnReason: (field: string, column: string, otherColumn: string) =>
       `both “${column}” and “${otherColumn}” may be the column of ${FIELD_NAMES[field]}; expected is one of them.`,
     shortRowReason: (count: number, needed: number) => `the row has ${count} ${count === 1 ? 'cell' : 'cells'}; expected are at least ${needed}.`,

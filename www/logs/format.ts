@@ -110,8 +110,9 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
 
   if (givenColumnNames) {
     if (firstRowLine && givenColumnNames.length !== rowWidth) throw new LogError(errorPlace, (errorReasons) => errorReasons.columnCountReason(rowWidth, givenColumnNames.length));
-    const namesInFile = textLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber).map(({ lineText }) => cellsOfLine(lineText)).findLast((rowCells) => rowCells.length === rowWidth);
-    const columnNames = givenColumnNames.map((columnName, i) => addUnitInFile(columnName, namesInFile?.[i] ?? ''));
+    const rowsAbove = textLines.filter(({ lineNumber }) => lineNumber < commonFormat.firstRowNumber).map(({ lineText }) => cellsOfLine(lineText)).filter((rowCells) => rowCells.length === rowWidth);
+    const namesInFile = addUnits(rowsAbove.findLast((rowCells) => !hasUnits(rowCells)) ?? givenColumnNames, rowsAbove);
+    const columnNames = givenColumnNames.map((columnName, i) => addUnitInFile(columnName, namesInFile[i]));
     return formatOf(columnNames);
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
@@ -139,6 +140,9 @@ export function detectTableFormat(lineTexts: string[], fileName: string, givenCo
 /** Fields that the columns of a table probably have, by the number of columns, unless known names contradict them. */
 const LIKELY_FIELDS: Record<number, string[]> = { 3: ['t', 'v', 'omega'], 7: ['t', 'odom_x', 'odom_y', 'odom_yaw', 'ref_x', 'ref_y', 'ref_yaw'] };
 
+/** Maximum number of columns in a table from whose number alone their fields are guessed. Wider tables may hold quaternions, or roll and pitch. */
+const MAX_GUESSED_COLUMNS = 5;
+
 /** Returns the question for the columns of a table. Columns of known names keep them, and the missing fields are proposed for the other columns, in order. */
 function columnQuestionOf(columnNames: string[], sampledRows: string[][]): UserQuestion {
   const meanings = columnNames.map((columnName) => parseColumnName(columnName));
@@ -155,13 +159,16 @@ function columnQuestionOf(columnNames: string[], sampledRows: string[][]): UserQ
     return isOtherQuantity(columnName) || (missingFields[0] === 't' && !isRising(i)) ? '-' : (missingFields.shift() ?? '-');
   });
   const proposedFields = proposedNames.map((proposedName, i) => (proposedName === columnNames[i].trim() && meanings[i]?.logField) || proposedName);
-  return { optionName: 'columns', possibleAnswers: missingFields.length === 0 ? [proposedNames.join()] : [], columnNames, proposedFields };
+  const isGuess = !knownFields.some(Boolean) && columnNames.length > MAX_GUESSED_COLUMNS && !(columnNames.length in LIKELY_FIELDS);
+  return { optionName: 'columns', possibleAnswers: missingFields.length === 0 && !isGuess ? [proposedNames.join()] : [], columnNames, proposedFields };
 }
 
 const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 
+const hasUnits = (rowCells: string[]) => rowCells.map(stripUnitBrackets).filter(isUnit).length >= 2;
+
 function addUnits(columnNames: string[], rowsBelowHeader: string[][]): string[] {
-  const unitTexts = rowsBelowHeader.map((rowCells) => rowCells.map(stripUnitBrackets)).find((rowCells) => rowCells.length === columnNames.length && rowCells.filter(isUnit).length >= 2);
+  const unitTexts = rowsBelowHeader.find((rowCells) => rowCells.length === columnNames.length && hasUnits(rowCells))?.map(stripUnitBrackets);
   return columnNames.map((columnName, i) => (unitTexts && isUnit(unitTexts[i]) ? `${columnName} [${unitTexts[i]}]` : columnName));
 }
 

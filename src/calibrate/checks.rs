@@ -39,9 +39,7 @@ pub enum CheckName {
     )]
     EnoughLegs,
     /// Fraction of the legs that were left out of the fit.
-    #[error(
-        "Many legs were lost, to the causes counted under lost legs. The α's describe the remaining legs. Record both logs for the whole drive and without gaps, and look at the jumps of the reference and at the rows left out."
-    )]
+    #[error("Many legs were lost. The α's describe the remaining legs.")]
     LegsLost,
     /// Median length of a leg, divided by the length that the options ask for.
     #[error(
@@ -56,7 +54,7 @@ pub enum CheckName {
     /// Fraction of the legs in which the odometry moves sideways. Motion backwards also counts under rules that decompose it into two
     /// turns.
     #[error(
-        "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, it is swapped with the reference, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
+        "The odometry moves sideways: its positions are noisy (under Table 5.6 this counts in turns on the spot too), its frame is off the axle, it is swapped with the reference, or the robot reverses (counts only under Table 5.6). α₁ and α₄ are too small. Use the rule of Nav2, or odometry of the axle."
     )]
     SidewaysRare,
     /// Difference of the distance scales of straight and turning legs, or of both halves of the log, whichever is larger.
@@ -122,6 +120,21 @@ pub enum FailureCause {
         "The reference turns left where the odometry turns right: one of the two has Z down or a mirrored axis. The α's mean nothing. Negate y and the heading of either: the logs cannot show which one is wrong, and the α's are the same."
     )]
     Mirrored,
+    /// Most lost legs lack a pose of the reference.
+    #[error(
+        "Many legs were lost. The α's describe the remaining legs. Most lack the reference: it ends early, has gaps, or stands still. Record it for the whole drive."
+    )]
+    WithoutReference,
+    /// Most lost legs cross a break, at which the pose may have jumped.
+    #[error(
+        "Many legs were lost. The α's describe the remaining legs. Most cross a break: look at the jumps and at the rows left out."
+    )]
+    AcrossBreaks,
+    /// Most lost legs are too long because of a pause of the recording.
+    #[error(
+        "Many legs were lost. The α's describe the remaining legs. Most are stretched by a pause: record both logs without gaps."
+    )]
+    AcrossPauses,
 }
 
 /// Check of a log or of a fit, with its outcome.
@@ -207,7 +220,7 @@ pub(super) fn log_checks(leg_set: &LegSet, lost: &LostLegs, inflation: f64) -> V
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // The factor on the α's is infinite if no factor makes the predictions cover the errors over windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
-        Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]),
+        Check::new(CheckName::LegsLost, lost_fraction, [0.0, 0.2]).with_cause(lost.main_cause()),
         Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
         Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
     ];

@@ -4,6 +4,7 @@
 //! real wheels mostly grows with the length itself.
 
 use super::Drive;
+use super::checks::FailureCause;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::MAX_SPIN_DISTANCE;
 use nalgebra::Vector3;
@@ -103,6 +104,17 @@ impl LostLegs {
     /// Returns the number of lost legs of all causes.
     pub fn total(&self) -> usize {
         self.without_reference + self.across_breaks + self.across_pauses + self.standing
+    }
+
+    /// Returns the most frequent cause. A standing robot needs no remedy, and does not count.
+    pub(super) fn main_cause(&self) -> FailureCause {
+        if self.without_reference > self.across_breaks.max(self.across_pauses) {
+            FailureCause::WithoutReference
+        } else if self.across_breaks > self.across_pauses {
+            FailureCause::AcrossBreaks
+        } else {
+            FailureCause::AcrossPauses
+        }
     }
 }
 

@@ -208,7 +208,10 @@ fn lost_legs_are_reported() {
     let [odometry, reference] = sim.simulate_log();
     let reference_with_gaps =
         new_trajectory(reference.samples().filter(|(sample_time, _)| sample_time.rem_euclid(90.0) > 30.0));
-    assert_fails(LegsLost, &calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options()));
+    let calibration = calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options());
+    assert_fails(LegsLost, &calibration);
+    let causes = calibration.diagnostics.checks.iter().map(|check| check.cause);
+    assert!(causes.into_iter().any(|cause| cause == Some(FailureCause::WithoutReference)));
 }
 
 #[test]

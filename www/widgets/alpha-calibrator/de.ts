@@ -12,14 +12,18 @@ const CHECK_MESSAGES: Record<string, string> = {
     'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Fuß, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien jeder Fahrt vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Länger aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
-  'legs-lost':
-    'Viele Etappen gingen verloren, aus den Gründen unter „verlorene Etappen“. Die α gelten für den Rest. Beide Dateien während der ganzen Fahrt und ohne Lücken aufzeichnen; die Sprünge der Referenz und die weggelassenen Zeilen ansehen.',
+  'legs-lost-withoutReference':
+    'Viele Etappen gingen verloren. Die α gelten für den Rest. Den meisten fehlt die Referenz: Sie endet früh, hat Lücken oder steht. Sie während der ganzen Fahrt aufzeichnen.',
+  'legs-lost-acrossBreaks':
+    'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten gehen über einen Bruch: die Sprünge und die weggelassenen Zeilen ansehen.',
+  'legs-lost-acrossPauses':
+    'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten sind durch eine Pause zu lang: beide ohne Lücken aufzeichnen.',
   'sampling-dense':
     'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für diese Länge. Mit höherer Rate aufzeichnen oder längere Etappen wählen.',
   'outliers-few':
     'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die Ausreißer ansehen: Sprünge der Referenz oder Schlupf?',
   'sideways-rare':
-    'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, sie ist mit der Referenz vertauscht, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
+    'Die Odometrie bewegt sich seitwärts: Ihre Positionen rauschen (nach Tabelle 5.6 zählt das auch in Drehungen auf der Stelle), ihr Koordinatensystem liegt nicht auf der Achse, sie ist mit der Referenz vertauscht, oder der Roboter fährt rückwärts (zählt nur nach Tabelle 5.6). α₁ und α₄ sind zu klein. Die Regel von Nav2 verwenden, oder Odometrie der Räder in der Mitte ihrer Achse.',
   'distance-scale-constant':
     'Der Skalenfaktor der Strecke ist nicht konstant und wurde nur auf Wunsch korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
   'turn-scale-constant': 'Der Skalenfaktor der Drehung ist nicht konstant und wurde nur auf Wunsch korrigiert. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',

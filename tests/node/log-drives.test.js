@@ -227,7 +227,7 @@ test('a summary contains the driven distance, units and their evidence, dropped 
   const [{ reference: referenceLog }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
   assert.equal(referenceLog.logSummary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarySentencesOf(referenceLog, english.logSummaryTexts), [
-    '199 of 200 rows, 13.0 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',
+    '199 of 200 rows, 13.0 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m (assumed), yaw in degrees (by name)',
     'left out: 1 row, line 11: a value that is not finite, or above a billion', 'gaps: 1, the first 5.00 s after the start, the longest of 3.05 s',
   ]);
 });

@@ -19,7 +19,7 @@ const ROLE_NAMES = { odometry: 'Odometrie', reference: 'Referenz' };
 const countWithNoun = (count: number, singular: string, plural: string) => `${count} ${count === 1 ? singular : plural}`;
 const withDecimalComma = (value: number, digitCount: number) => value.toFixed(digitCount).replace('.', ',');
 
-const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: '' };
+const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)', size: ' (nach der Größe)', rate: ' (nach Rate und Geschwindigkeit)', format: '', date: ' (aus Datumsangaben)', option: ' (wie angegeben)', usage: ' (angenommen)' };
 
 const ANGLE_UNIT_TEXTS: Record<LogSummary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
